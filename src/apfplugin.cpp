@@ -1,0 +1,73 @@
+// The styles of APF, adhesive particle flow: registers them with LAMMPS, nothing else.
+
+#include "lammpsplugin.h"
+
+#include "comm.h"
+#include "error.h"
+#include "version.h"
+
+#include "compute_aggregate_contact.h"
+#include "fix_contact_history.h"
+#include "fix_flow_field.h"
+#include "fix_flow_force.h"
+#include "fix_wall_levelset.h"
+#include "pair_granular_adhesive.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+template <class Style> void *create(LAMMPS *lmp) { return new Style(lmp); }
+template <class Style> void *create(LAMMPS *lmp, int narg, char **arg)
+{
+  return new Style(lmp, narg, arg);
+}
+
+}    // namespace
+
+extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *lmp, void *handle,
+                                                                         void *regfunc)
+{
+  auto register_plugin = reinterpret_cast<lammpsplugin_regfunc>(regfunc);
+  auto *lammps = static_cast<LAMMPS *>(lmp);
+  if (strcmp(lammps->version, LAMMPS_VERSION) != 0 && lammps->comm->me == 0)
+    lammps->error->warning(FLERR,
+                           "APF " APF_VERSION " was compiled for LAMMPS " LAMMPS_VERSION
+                           " and is loaded into LAMMPS {}: compile it for this version",
+                           lammps->version);
+
+  lammpsplugin_t plugin{};
+  plugin.version = LAMMPS_VERSION;
+  plugin.author = "APF developers";
+  plugin.handle = handle;
+
+  auto add = [&](const char *style, const char *name, const char *info) {
+    plugin.style = style;
+    plugin.name = name;
+    plugin.info = info;
+    register_plugin(&plugin, lmp);
+  };
+
+  plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(&create<PairGranularAdhesive>);
+  add("pair", "granular/adhesive", "JKR-adhesive granular contact, APF " APF_VERSION);
+
+  auto fix = [&](auto *creator, const char *name, const char *info) {
+    plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(creator);
+    add("fix", name, info);
+  };
+  using Factory = void *(LAMMPS *, int, char **);
+  fix(static_cast<Factory *>(&create<FixContactHistory>), "contact/history",
+      "keeps the histories of contacts (internal), APF " APF_VERSION);
+  fix(static_cast<Factory *>(&create<FixWallLevelset>), "wall/levelset",
+      "walls with adhesive contact, APF " APF_VERSION);
+  fix(static_cast<Factory *>(&create<FixFlowField>), "flow/field",
+      "fluid velocity field, APF " APF_VERSION);
+  fix(static_cast<Factory *>(&create<FixFlowForce>), "flow/force",
+      "forces of the fluid on particles, APF " APF_VERSION);
+
+  plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(
+      static_cast<Factory *>(&create<ComputeAggregateContact>));
+  add("compute", "aggregate/contact", "aggregates of touching particles, APF " APF_VERSION);
+}

@@ -1,0 +1,45 @@
+// Runs the contact law over a ContactList: gathers blocks of contacts into small arrays, lets the
+// compiler turn the law into vector instructions, scatters forces.
+
+#ifndef APF_CONTACT_KERNEL_H
+#define APF_CONTACT_KERNEL_H
+
+#include "contact_law.h"
+
+namespace apf {
+
+// Rows that contacts refer to. All arrays are [rows][3], contiguous.
+struct Bodies {
+  const double *x;        // positions                                       [length]
+  const double *v;        // velocities at the time of the positions         [velocity]
+  const double *omega;    // angular velocities at the time of the positions [1/time]
+  double *f;              // forces, added to                                [force]
+  double *torque;         // torques, added to                               [force length]
+};
+
+// Which sub-models some contact of the list uses, and whether it lives in the xy plane.
+struct KernelChoice {
+  bool planar = false, adhesion = false, sliding = false, twisting = false, rolling = false;
+
+  void include(const ContactModel &model)
+  {
+    adhesion |= model.adhesive();
+    sliding |= model.sliding();
+    twisting |= model.twisting;
+    rolling |= model.rolling();
+  }
+};
+
+using ContactKernel = void (*)(ContactList &list, const Bodies &bodies, double dt,
+                               ContactParts *parts);
+
+// The kernel for a choice. kernel(list, bodies, dt, parts):
+//   adds forces and torques of all contacts to bodies.f and bodies.torque,
+//   advances the histories by dt (0: evaluates only), sets list.overlap,
+//   and, where parts is not null, fills parts[0 .. list.size()-1].
+// Contacts beyond the end of their neck exert nothing; the caller removes them (list.ended).
+ContactKernel contact_kernel(const KernelChoice &choice);
+
+}    // namespace apf
+
+#endif

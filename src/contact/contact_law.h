@@ -1,0 +1,185 @@
+// Force and torque of one contact: normal, sliding, twisting and rolling parts put together as in
+// IIHR Report 459, eqs (15)-(44), with the corrections listed in doc/ (theory). Written once for
+// space and for the plane: Frame says what a vector, a spin and a tangent are.
+//
+// n points from i to j. Velocities are i minus j. Compression and repulsion are positive.
+
+#ifndef APF_CONTACT_LAW_H
+#define APF_CONTACT_LAW_H
+
+#include "contact_list.h"
+#include "slider.h"
+
+namespace apf {
+
+// Sub-models that a scene uses. What is false is not compiled into the kernel.
+struct Parts {
+  bool adhesion, sliding, twisting, rolling;
+};
+
+struct SpaceFrame {
+  using Vector = Vec3;      // positions, velocities, forces
+  using Spin = Vec3;        // angular velocities, torques
+  using Tangent = Vec3;     // vectors in the contact plane
+  static constexpr bool planar = false;
+
+  Vec3 n;
+
+  Tangent slip(const Vec3 &v, double vn) const { return v - vn * n; }
+  Tangent slip_of_spin(const Spin &spin) const { return cross(spin, n); }
+  Vec3 force(const Tangent &t) const { return t; }
+  Spin torque_of_force(const Tangent &t) const { return cross(n, t); }
+};
+
+struct PlaneFrame {
+  using Vector = Vec2;
+  using Spin = double;       // about z
+  using Tangent = double;    // along (-n_y, n_x)
+  static constexpr bool planar = true;
+
+  Vec2 n;
+
+  Tangent slip(const Vec2 &v, double) const { return n.x * v.y - n.y * v.x; }
+  Tangent slip_of_spin(Spin spin) const { return spin; }
+  Vec2 force(Tangent t) const { return {-n.y * t, n.x * t}; }
+  Spin torque_of_force(Tangent t) const { return t; }
+};
+
+template <class Frame> struct ContactInput {
+  typename Frame::Vector d;                // x_j - x_i
+  typename Frame::Vector v;                // v_i - v_j
+  typename Frame::Spin spin_i, spin_j;     // angular velocities
+};
+
+template <class Frame> struct ContactMemory {
+  typename Frame::Tangent sliding{}, rolling{};
+  double twisting = 0.0;
+  typename Frame::Vector normal{};    // not used in the plane
+};
+
+template <class Frame> struct ContactOutput {
+  typename Frame::Vector force{};                // on i; j gets the opposite
+  typename Frame::Spin torque_i{}, torque_j{};
+  double overlap = 0.0;
+  // for ContactParts only; the compiler drops what nobody reads
+  double s = 0.0, elastic = 0.0, damping = 0.0, twisting = 0.0;
+  typename Frame::Tangent sliding{};
+  typename Frame::Spin rolling{};
+};
+
+// Carries a tangent-plane history along with the pair: the smallest rotation that takes the last
+// normal to the present one, then the mean spin of the two bodies about it. Exact for finite steps.
+struct FrameRotation {
+  Vec3 n, sum;          // present normal; last + present normal
+  double scale;         // 1 / (1 + n . n_last)
+  double cos_spin, sin_spin;
+
+  FrameRotation(const Vec3 &n, const Vec3 &last, double spin_angle) : n(n), sum(n + last)
+  {
+    scale = 1.0 / (1.0 + dot(n, last));
+    const double q = 0.25 * spin_angle * spin_angle;    // Cayley form: a rotation for any angle
+    const double inv = 1.0 / (1.0 + q);
+    cos_spin = (1.0 - q) * inv;
+    sin_spin = spin_angle * inv;
+  }
+
+  Vec3 operator()(const Vec3 &xi) const
+  {
+    const Vec3 tilted = xi - (dot(n, xi) * scale) * sum;
+    const Vec3 tangent = tilted - dot(n, tilted) * n;    // rounding only
+    return cos_spin * tangent + sin_spin * cross(n, tangent);
+  }
+};
+
+// The whole law. dt = time since the last call; 0 evaluates without touching the history's length.
+template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
+inline ContactOutput<Frame> contact_law(const ContactConstants &c, const ContactInput<Frame> &in,
+                                        double dt, ContactMemory<Frame> &memory)
+{
+  ContactOutput<Frame> out;
+  const double distance = std::sqrt(dot(in.d, in.d));
+  const double inv_distance = 1.0 / distance;
+  const Frame frame{inv_distance * in.d};
+  const double overlap = c.radius_sum - distance;
+  const double closed = (overlap < c.break_overlap) ? 0.0 : 1.0;
+
+  // normal
+  double s;
+  if constexpr (adhesion) {
+    s = jkr_root(overlap, c.inv_R, c.neck);
+  } else {
+    const double x = overlap * c.inv_R;
+    s = std::sqrt(std::sqrt(x > 0.0 ? x : 0.0));
+  }
+  const double s2 = s * s, s3 = s2 * s;
+  const double neck3 = adhesion ? c.neck * c.neck * c.neck : 0.0;
+  const double elastic = closed * c.K * s3 * (s3 - 6.0 * neck3);
+  const double eta = closed * c.eta * s;
+  const double vn = dot(in.v, frame.n);
+  const double damping = eta * vn;
+
+  out.overlap = overlap;
+  out.s = s;
+  out.elastic = elastic;
+  out.damping = damping;
+  out.force = (-(elastic + damping)) * frame.n;
+
+  if constexpr (!Frame::planar && (sliding || rolling)) {
+    const Vec3 last = memory.normal;
+    const bool fresh = norm2(last) < 0.5;
+    const Vec3 from = {fresh ? frame.n.x : last.x, fresh ? frame.n.y : last.y,
+                       fresh ? frame.n.z : last.z};
+    const double spin = 0.5 * dt * dot(in.spin_i + in.spin_j, frame.n);
+    const FrameRotation rotate(frame.n, from, spin);
+    if constexpr (sliding) memory.sliding = rotate(memory.sliding);
+    if constexpr (rolling) memory.rolling = rotate(memory.rolling);
+    memory.normal = frame.n;
+  }
+
+  // levers to the middle of the overlap (at a wall: to the wall): they add up to the distance, so
+  // the pair's angular momentum is kept and a rigid rotation slides nothing
+  const double arm_i = c.radius_i - c.arm_share * overlap;
+  const double arm_j = distance - arm_i;
+
+  if constexpr (sliding || twisting) {
+    const double kt = c.kt * s2 + 1.0e-300;
+    const double limit = closed * c.mu * std::fabs(elastic + c.adhesion);
+    if constexpr (sliding) {
+      const auto slip =
+          frame.slip(in.v, vn) + frame.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j);
+      const auto force = slider_force(kt, eta, limit, slip, dt, memory.sliding);
+      out.sliding = force;
+      out.force = out.force + frame.force(force);
+      const auto torque = frame.torque_of_force(force);
+      out.torque_i = arm_i * torque;
+      out.torque_j = arm_j * torque;
+    }
+    if constexpr (twisting && !Frame::planar) {
+      const double a = c.R * s2;
+      const double share = 0.5 * a * a;    // eq (31)
+      const double twist_rate = dot(in.spin_i - in.spin_j, frame.n);
+      const double torque = slider_force(share * kt + 1.0e-300, share * eta,
+                                         c.twist * (2.0 / 3.0) * a * limit, twist_rate, dt,
+                                         memory.twisting);
+      out.twisting = torque;
+      out.torque_i = out.torque_i + torque * frame.n;
+      out.torque_j = out.torque_j - torque * frame.n;
+    }
+  }
+
+  if constexpr (rolling) {
+    const double k = c.roll_k * s3 + 1.0e-300;
+    const double limit = closed * c.roll_k * s3 * c.roll_limit;
+    const auto v_roll = (-c.R) * frame.slip_of_spin(in.spin_i - in.spin_j);
+    const auto moment = slider_force(k, closed * c.roll_eta * s * std::sqrt(s), limit, v_roll, dt,
+                                     memory.rolling);
+    out.rolling = -frame.torque_of_force(moment);    // moment x n, eq (15)
+    out.torque_i = out.torque_i + out.rolling;
+    out.torque_j = out.torque_j - out.rolling;
+  }
+  return out;
+}
+
+}    // namespace apf
+
+#endif

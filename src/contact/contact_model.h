@@ -1,0 +1,106 @@
+// The laws that act between two materials (ContactModel) and their numbers for one pair of bodies
+// (ContactConstants). All roots and powers are taken here, once per contact, none per step.
+
+#ifndef APF_CONTACT_MODEL_H
+#define APF_CONTACT_MODEL_H
+
+#include "damping.h"
+#include "jkr.h"
+#include "material.h"
+
+namespace apf {
+
+enum class Break { displacement, force };    // neck ends at -delta_C, or at the force maximum
+
+struct ContactModel {
+  Interface surface{};
+  double alpha = 0.0;                   // normal damping                                       [-]
+  double mu = 0.0;                      // sliding friction; 0 = no tangential force            [-]
+  bool twisting = false;                // twisting resistance; its limit needs mu
+  double theta_crit = 0.0;              // critical rolling angle xi_crit / R; 0 = no rolling   [-]
+  double zeta = 0.0;                    // damping of rolling, share of critical                [-]
+  Break neck_end = Break::displacement;
+  double stiffness_scale = 1.0;         // f: E -> f E at the same sticking velocity            [-]
+
+  bool sliding() const { return mu > 0.0; }
+  bool rolling() const { return theta_crit > 0.0; }
+  bool adhesive() const { return surface.gamma > 0.0; }
+
+  // Normal law with the stiffness scaled: gamma' = gamma f^(2/5) keeps the sticking velocity and
+  // e(V) (Haervig et al., doi:10.1016/j.powtec.2017.04.006; Chen, Liu and Li, arXiv:1805.03025).
+  JKR normal(double R) const
+  {
+    return JKR::make(R, surface.E * stiffness_scale,
+                     surface.gamma * std::pow(stiffness_scale, 0.4));
+  }
+};
+
+// Geometry and inertia of two bodies. A wall is a body without radius at its foot point: arm_share
+// 1, R = radius_i, and the particle's own mass and moment of inertia as effective ones.
+struct ContactBodies {
+  double radius_i, radius_j;    // [length]
+  double arm_share;             // share of the overlap taken from i's lever arm: 1/2, wall 1   [-]
+  double R;                     // effective radius                                        [length]
+  double m;                     // effective mass                                            [mass]
+  double I;                     // effective moment of inertia                      [mass length^2]
+
+  static ContactBodies pair(double ri, double rj, double m_eff, double I_eff)
+  {
+    return {ri, rj, 0.5, ri * rj / (ri + rj), m_eff, I_eff};
+  }
+  static ContactBodies wall(double r, double m, double I) { return {r, 0.0, 1.0, r, m, I}; }
+};
+
+// Every coefficient multiplies a power of s = sqrt(a/R), see jkr.h.
+struct ContactConstants {
+  double radius_sum;       // r_i + r_j                                                    [length]
+  double radius_i;         // r_i                                                          [length]
+  double arm_share;        // share of the overlap taken from i's arm                           [-]
+  double R;                // effective radius                                             [length]
+  double inv_R;            // 1 / R                                                      [1/length]
+  double K;                // elastic force: K s^3 (s^3 - 6 neck^3)                         [force]
+  double neck;             // s where the neck ends                                             [-]
+  double break_overlap;    // contact ends below this overlap (<= 0)                       [length]
+  double eta;              // damping: eta s = alpha sqrt(m k_N)                        [mass/time]
+  double kt;               // tangential stiffness: kt s^2 = 8 G a                   [force/length]
+  double mu;               // sliding friction                                                  [-]
+  double adhesion;         // 2 F_C in the friction limit mu |F_e + 2 F_C|                  [force]
+  double twist;            // 1 with twisting resistance, else 0                                [-]
+  double roll_k;           // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
+  double roll_limit;       // xi_crit = theta_crit R                                       [length]
+  double roll_eta;         // rolling damping: roll_eta s^(3/2)                        [force time/length]
+
+  static ContactConstants make(const ContactModel &model, const ContactBodies &bodies)
+  {
+    const double f = model.stiffness_scale;
+    const JKR normal = model.normal(bodies.R);
+    // What a softer contact must not change: the adhesive part of the friction limit and the
+    // rolling moment, both proportional to F_C of the real material (physics: F_C' = f^(2/5) F_C).
+    const double restore = std::pow(f, -0.4);
+    // force maximum at s^3 = 3 m^3 (dF/ds = 0), where overlap = -delta_C 9^(-1/3)
+    const double break_share = (model.neck_end == Break::force) ? std::cbrt(1.0 / 9.0) : 1.0;
+
+    ContactConstants c;
+    c.radius_sum = bodies.radius_i + bodies.radius_j;
+    c.radius_i = bodies.radius_i;
+    c.arm_share = bodies.arm_share;
+    c.R = bodies.R;
+    c.inv_R = 1.0 / bodies.R;
+    c.K = normal.K;
+    c.neck = normal.neck;
+    c.break_overlap = -break_share * normal.pulloff_overlap();
+    c.eta = model.alpha * std::sqrt(bodies.m * normal.K / bodies.R);
+    c.kt = 8.0 * model.surface.G * f * bodies.R;
+    c.mu = model.mu;
+    c.adhesion = 2.0 * normal.pulloff_force() * restore;
+    c.twist = model.twisting ? 1.0 : 0.0;
+    c.roll_k = 6.0 * normal.K * normal.neck3() * restore;
+    c.roll_limit = model.theta_crit * bodies.R;
+    c.roll_eta = 2.0 * model.zeta * std::sqrt(c.roll_k * bodies.I / bodies.R);
+    return c;
+  }
+};
+
+}    // namespace apf
+
+#endif

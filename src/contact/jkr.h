@@ -1,0 +1,79 @@
+// Normal contact of two elastic spheres that adhere: Johnson, Kendall and Roberts (JKR),
+// doi:10.1098/rspa.1971.0141; in the dimensionless form of IIHR Report 459, eqs (38)-(41).
+//
+// With a the contact radius and s = sqrt(a/R), the law is a polynomial with one parameter,
+// the neck parameter m:
+//
+//   overlap / R = s^4 - 4 m^3 s                       (report eq 40)
+//   force       = (4/3) E R^2 s^3 (s^3 - 6 m^3)       (report eq 39; > 0 repels)
+//   m^3         = (a0/R)^(3/2) / 6,  a0 = (9 pi gamma R^2 / E)^(1/3)
+//
+// The stable branch is s >= m. At s = m the neck ends: overlap = -3 R m^4 = -delta_C. Without
+// adhesion m = 0 and the same two lines are Hertz's law, s^4 = overlap/R: there is one solver.
+
+#ifndef APF_JKR_H
+#define APF_JKR_H
+
+#include <cmath>
+
+namespace apf {
+
+constexpr double pi = 3.14159265358979323846;
+
+struct JKR {
+  double R;        // effective radius, r_i r_j / (r_i + r_j); r_i at a wall       [length]
+  double K;        // force scale (4/3) E R^2                                       [force]
+  double neck;     // m = sqrt(a/R) where the neck ends; 0 without adhesion         [-]
+
+  // E effective modulus, eq (16) [pressure]; gamma surface energy per surface [energy/length^2]
+  static JKR make(double R, double E, double gamma)
+  {
+    const double a0 = std::cbrt(9.0 * pi * gamma * R * R / E);
+    return {R, (4.0 / 3.0) * E * R * R, std::cbrt(std::pow(a0 / R, 1.5) / 6.0)};
+  }
+
+  double neck3() const { return neck * neck * neck; }
+  double pulloff_force() const { return 9.0 * K * neck3() * neck3(); }               // F_C, eq (41)
+  double pulloff_overlap() const { return 3.0 * R * neck * neck * neck * neck; }     // delta_C > 0
+  double equilibrium_radius() const { return R * std::cbrt(36.0 * neck3() * neck3()); }    // a0
+  double equilibrium_overlap() const
+  {
+    return equilibrium_radius() * equilibrium_radius() / (3.0 * R);
+  }
+
+  double overlap(double s) const { return R * s * (s * s * s - 4.0 * neck3()); }
+  double force(double s) const { return K * s * s * s * (s * s * s - 6.0 * neck3()); }
+
+  // integral of force over overlap from the (virtual) state a = 0; only differences have a meaning
+  double energy(double s) const
+  {
+    const double s3 = s * s * s, s4 = s3 * s, m3 = neck3();
+    return 4.0 * K * R * s4 * (0.1 * s3 * s3 - m3 * s3 + 1.5 * m3 * m3);
+  }
+};
+
+// s = sqrt(a/R) on the stable branch for a given overlap. Branch-free; overlap < -delta_C gives
+// the end of the neck. With t = s - m the law reads t^2 (t^2 + 4 m t + 6 m^2) = x; the start is the
+// root of a quadratic that follows t(x) within 2.5 % over all x, and two Halley steps bring that
+// to rounding error. The pole of dF/d(overlap) at the end of the neck does no harm in t.
+inline double jkr_root(double overlap, double inv_R, double neck)
+{
+  const double m2 = neck * neck;
+  const double x_full = overlap * inv_R + 3.0 * m2 * m2;
+  const double x = x_full > 1.0e-60 ? x_full : 1.0e-60;    // keeps 0/0 away at the end of contact
+  const double r = std::sqrt(x);
+  const double h = 1.2 * neck;    // 1.2 and two steps: least error, scanned over 22 decades of x
+  const double c1 = 4.0 * neck, c0 = 6.0 * m2;
+  double t = r / (h + std::sqrt(h * h + r));
+  for (int step = 0; step < 2; step++) {
+    const double f = t * t * (t * (t + c1) + c0) - x;
+    const double f1 = t * (t * (4.0 * t + 3.0 * c1) + 2.0 * c0);
+    const double f2 = t * (12.0 * t + 6.0 * c1) + 2.0 * c0;
+    t -= 2.0 * f * f1 / (2.0 * f1 * f1 - f * f2);
+  }
+  return neck + t;
+}
+
+}    // namespace apf
+
+#endif

@@ -1,0 +1,84 @@
+// LAMMPS with the plugin loaded, for tests: commands in, numbers and error texts out.
+
+#ifndef APF_TEST_SIMULATION_H
+#define APF_TEST_SIMULATION_H
+
+#include "atom.h"
+#include "exceptions.h"
+#include "input.h"
+#include "lammps.h"
+#include "library.h"
+#include "modify.h"
+#include "update.h"
+
+#include <mpi.h>
+
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+class Simulation {
+ public:
+  // extra: further command-line words, for example {"-var", "x", "1"}
+  explicit Simulation(const std::vector<std::string> &extra = {})
+  {
+    std::vector<std::string> words = {"lmp", "-log", "none", "-screen", "none", "-nocite"};
+    words.insert(words.end(), extra.begin(), extra.end());
+    std::vector<char *> argv;
+    for (auto &word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    handle = lammps_open(static_cast<int>(words.size()), argv.data(), MPI_COMM_WORLD, nullptr);
+  }
+  ~Simulation()
+  {
+    if (handle) lammps_close(handle);
+  }
+  Simulation(const Simulation &) = delete;
+  Simulation &operator=(const Simulation &) = delete;
+
+  LAMMPS_NS::LAMMPS *lammps() const { return static_cast<LAMMPS_NS::LAMMPS *>(handle); }
+
+  // Runs commands, one per line; an error of LAMMPS is thrown as std::runtime_error with its text.
+  void run(const std::string &commands)
+  {
+    const std::string text = error_of(commands);
+    if (!text.empty()) throw std::runtime_error(text);
+  }
+
+  // The error that the commands raise; empty if there is none.
+  std::string error_of(const std::string &commands)
+  {
+    std::istringstream lines(commands);
+    std::string line, word;
+    while (std::getline(lines, line)) {
+      while (!line.empty() && line.back() == '&' && std::getline(lines, word)) {
+        line.back() = ' ';
+        line += word;
+      }
+      try {
+        lammps()->input->one(line);
+      } catch (LAMMPS_NS::LAMMPSException &error) {
+        return error.what();
+      }
+    }
+    return {};
+  }
+
+  // an equal-style expression, as in "c_1[2] + vx[1]"; needs a run before for computes
+  double value(const std::string &expression)
+  {
+    run("variable __value delete");
+    run("variable __value equal " + expression);
+    const auto *result =
+        static_cast<double *>(lammps_extract_variable(handle, "__value", nullptr));
+    const double number = *result;
+    lammps_free(const_cast<double *>(result));
+    return number;
+  }
+
+ private:
+  void *handle = nullptr;
+};
+
+#endif
