@@ -20,7 +20,8 @@ using namespace LAMMPS_NS;
 namespace {
 
 template <class Style> void *create(LAMMPS *lmp) { return new Style(lmp); }
-template <class Style> void *create(LAMMPS *lmp, int narg, char **arg)
+
+template <class Style> void *create_with_words(LAMMPS *lmp, int narg, char **arg)
 {
   return new Style(lmp, narg, arg);
 }
@@ -49,25 +50,28 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
     plugin.info = info;
     register_plugin(&plugin, lmp);
   };
+  auto creates = [&](void *(*creator)(LAMMPS *)) {
+    plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(creator);
+  };
+  auto creates_with_words = [&](void *(*creator)(LAMMPS *, int, char **)) {
+    plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(creator);
+  };
 
-  plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(&create<PairGranularAdhesive>);
+  creates(&create<PairGranularAdhesive>);
   add("pair", "granular/adhesive", "JKR-adhesive granular contact, APF " APF_VERSION);
 
-  auto fix = [&](auto *creator, const char *name, const char *info) {
-    plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(creator);
-    add("fix", name, info);
-  };
-  using Factory = void *(LAMMPS *, int, char **);
-  fix(static_cast<Factory *>(&create<FixContactHistory>), "contact/history",
-      "keeps the histories of contacts (internal), APF " APF_VERSION);
-  fix(static_cast<Factory *>(&create<FixWallLevelset>), "wall/levelset",
-      "walls with adhesive contact, APF " APF_VERSION);
-  fix(static_cast<Factory *>(&create<FixFlowField>), "flow/field",
-      "fluid velocity field, APF " APF_VERSION);
-  fix(static_cast<Factory *>(&create<FixFlowForce>), "flow/force",
-      "forces of the fluid on particles, APF " APF_VERSION);
+  creates_with_words(&create_with_words<FixContactHistory>);
+  add("fix", "contact/history", "keeps contacts of pair granular/adhesive, APF " APF_VERSION);
 
-  plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(
-      static_cast<Factory *>(&create<ComputeAggregateContact>));
+  creates_with_words(&create_with_words<FixWallLevelset>);
+  add("fix", "wall/levelset", "walls with adhesive contact, APF " APF_VERSION);
+
+  creates_with_words(&create_with_words<FixFlowField>);
+  add("fix", "flow/field", "velocity field of the fluid, APF " APF_VERSION);
+
+  creates_with_words(&create_with_words<FixFlowForce>);
+  add("fix", "flow/force", "forces of the fluid on particles, APF " APF_VERSION);
+
+  creates_with_words(&create_with_words<ComputeAggregateContact>);
   add("compute", "aggregate/contact", "aggregates of touching particles, APF " APF_VERSION);
 }

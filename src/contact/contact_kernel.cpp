@@ -1,6 +1,13 @@
+// Compiled once per instruction set (CMakeLists.txt); APF_ISA names the namespace of this copy.
+
 #include "contact_kernel.h"
 
+#ifndef APF_ISA
+#define APF_ISA baseline
+#endif
+
 namespace apf {
+namespace APF_ISA {
 namespace {
 
 constexpr int width = 8;    // contacts per block: one AVX-512 register, two AVX2, four SSE2
@@ -14,42 +21,41 @@ struct Block {
 template <class Frame> struct Access;
 
 template <> struct Access<SpaceFrame> {
-  static Vec3 vector(const double (*a)[width], int l) { return {a[0][l], a[1][l], a[2][l]}; }
-  static Vec3 spin(const double (*a)[width], int l) { return vector(a, l); }
-  static void set(double (*a)[width], int l, const Vec3 &u)
+  static APF_INLINE Vec3 vector(const double (*a)[width], int l) { return {a[0][l], a[1][l], a[2][l]}; }
+  static APF_INLINE Vec3 spin(const double (*a)[width], int l) { return vector(a, l); }
+  static APF_INLINE void set(double (*a)[width], int l, const Vec3 &u)
   {
     a[0][l] = u.x;
     a[1][l] = u.y;
     a[2][l] = u.z;
   }
-  static void set_spin(double (*a)[width], int l, const Vec3 &u) { set(a, l, u); }
-  static Vec3 load(double *const *h, int k) { return {h[0][k], h[1][k], h[2][k]}; }
-  static void store(double *const *h, int k, const Vec3 &u)
+  static APF_INLINE void set_spin(double (*a)[width], int l, const Vec3 &u) { set(a, l, u); }
+  static APF_INLINE Vec3 load(double *const *h, int k) { return {h[0][k], h[1][k], h[2][k]}; }
+  static APF_INLINE void store(double *const *h, int k, const Vec3 &u)
   {
     h[0][k] = u.x;
     h[1][k] = u.y;
     h[2][k] = u.z;
   }
-  static void copy(double *to, const Vec3 &u)
+  static APF_INLINE void copy(double *to, const Vec3 &u)
   {
     to[0] = u.x;
     to[1] = u.y;
     to[2] = u.z;
   }
-  static Vec3 tangent(const SpaceFrame &, const Vec3 &t) { return t; }
 };
 
 template <> struct Access<PlaneFrame> {
-  static Vec2 vector(const double (*a)[width], int l) { return {a[0][l], a[1][l]}; }
-  static double spin(const double (*a)[width], int l) { return a[2][l]; }
-  static void set(double (*a)[width], int l, const Vec2 &u)
+  static APF_INLINE Vec2 vector(const double (*a)[width], int l) { return {a[0][l], a[1][l]}; }
+  static APF_INLINE double spin(const double (*a)[width], int l) { return a[2][l]; }
+  static APF_INLINE void set(double (*a)[width], int l, const Vec2 &u)
   {
     a[0][l] = u.x;
     a[1][l] = u.y;
   }
-  static void set_spin(double (*a)[width], int l, double u) { a[2][l] = u; }
-  static double load(double *const *h, int k) { return h[0][k]; }
-  static void store(double *const *h, int k, double u) { h[0][k] = u; }
+  static APF_INLINE void set_spin(double (*a)[width], int l, double u) { a[2][l] = u; }
+  static APF_INLINE double load(double *const *h, int k) { return h[0][k]; }
+  static APF_INLINE void store(double *const *h, int k, double u) { h[0][k] = u; }
 };
 
 // Where the list's arrays start, taken once per call.
@@ -70,7 +76,7 @@ struct Arrays {
   }
 
   // spelled out, because a loop over members would go through memory and stop vectorisation
-  ContactConstants at(int k) const
+  APF_INLINE ContactConstants at(int k) const
   {
     return {constants[0][k],  constants[1][k],  constants[2][k],  constants[3][k],
             constants[4][k],  constants[5][k],  constants[6][k],  constants[7][k],
@@ -118,32 +124,6 @@ void scatter(const ContactList &list, const Bodies &b, int first, int n, const B
   }
 }
 
-template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-inline __attribute__((always_inline)) ContactOutput<Frame>
-one_contact(const Arrays &arrays, const Block &block, int k, int l, double dt)
-{
-  using A = Access<Frame>;
-  const ContactInput<Frame> in{A::vector(block.d, l), A::vector(block.v, l),
-                               A::spin(block.spin_i, l), A::spin(block.spin_j, l)};
-  ContactMemory<Frame> memory;
-  if constexpr (sliding) memory.sliding = A::load(arrays.sliding, k);
-  if constexpr (rolling) memory.rolling = A::load(arrays.rolling, k);
-  if constexpr (twisting && !Frame::planar) memory.twisting = arrays.twisting[k];
-  if constexpr ((sliding || rolling) && !Frame::planar)
-    memory.normal = Access<SpaceFrame>::load(arrays.normal, k);
-
-  const auto out =
-      contact_law<Frame, adhesion, sliding, twisting, rolling>(arrays.at(k), in, dt, memory);
-
-  if constexpr (sliding) A::store(arrays.sliding, k, memory.sliding);
-  if constexpr (rolling) A::store(arrays.rolling, k, memory.rolling);
-  if constexpr (twisting && !Frame::planar) arrays.twisting[k] = memory.twisting;
-  if constexpr ((sliding || rolling) && !Frame::planar)
-    Access<SpaceFrame>::store(arrays.normal, k, memory.normal);
-  arrays.overlap[k] = out.overlap;
-  return out;
-}
-
 template <class Frame>
 ContactParts report(const ContactConstants &c, const Arrays &arrays, const Block &block, int k, int l,
                     const ContactOutput<Frame> &out)
@@ -184,10 +164,40 @@ ContactParts report(const ContactConstants &c, const Arrays &arrays, const Block
   return p;
 }
 
+// Everything that belongs to one lane. It must not share local structures with the loop around it:
+// "omp simd" would put those into memory, one per lane, and nothing would become vector code.
+template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling, bool reports>
+APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l,
+                                                double dt, ContactParts *parts)
+{
+  using A = Access<Frame>;
+  const ContactInput<Frame> in{A::vector(block.d, l), A::vector(block.v, l),
+                               A::spin(block.spin_i, l), A::spin(block.spin_j, l)};
+  ContactMemory<Frame> memory;
+  if constexpr (sliding) memory.sliding = A::load(arrays.sliding, k);
+  if constexpr (rolling) memory.rolling = A::load(arrays.rolling, k);
+  if constexpr (twisting && !Frame::planar) memory.twisting = arrays.twisting[k];
+  if constexpr ((sliding || rolling) && !Frame::planar)
+    memory.normal = Access<SpaceFrame>::load(arrays.normal, k);
+
+  const auto out =
+      contact_law<Frame, adhesion, sliding, twisting, rolling>(arrays.at(k), in, dt, memory);
+
+  if constexpr (sliding) A::store(arrays.sliding, k, memory.sliding);
+  if constexpr (rolling) A::store(arrays.rolling, k, memory.rolling);
+  if constexpr (twisting && !Frame::planar) arrays.twisting[k] = memory.twisting;
+  if constexpr ((sliding || rolling) && !Frame::planar)
+    Access<SpaceFrame>::store(arrays.normal, k, memory.normal);
+  arrays.overlap[k] = out.overlap;
+  A::set(block.force, l, out.force);
+  A::set_spin(block.torque_i, l, out.torque_i);
+  A::set_spin(block.torque_j, l, out.torque_j);
+  if constexpr (reports) parts[k] = report<Frame>(arrays.at(k), arrays, block, k, l, out);
+}
+
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
 void kernel(ContactList &list, const Bodies &bodies, double dt, ContactParts *parts)
 {
-  using A = Access<Frame>;
   const Arrays arrays(list);
   Block block;
   const int size = list.size();
@@ -196,23 +206,16 @@ void kernel(ContactList &list, const Bodies &bodies, double dt, ContactParts *pa
     gather<Frame>(list, bodies, first, n, block);
     if (n == width && !parts) {
 #pragma omp simd
-      for (int l = 0; l < width; l++) {
-        const auto out =
-            one_contact<Frame, adhesion, sliding, twisting, rolling>(arrays, block, first + l, l, dt);
-        A::set(block.force, l, out.force);
-        A::set_spin(block.torque_i, l, out.torque_i);
-        A::set_spin(block.torque_j, l, out.torque_j);
-      }
+      for (int l = 0; l < width; l++)
+        lane<Frame, adhesion, sliding, twisting, rolling, false>(arrays, block, first + l, l, dt,
+                                                                 nullptr);
+    } else if (!parts) {
+      for (int l = 0; l < n; l++)
+        lane<Frame, adhesion, sliding, twisting, rolling, false>(arrays, block, first + l, l, dt,
+                                                                 nullptr);
     } else {
-      for (int l = 0; l < n; l++) {
-        const int k = first + l;
-        const auto out =
-            one_contact<Frame, adhesion, sliding, twisting, rolling>(arrays, block, k, l, dt);
-        A::set(block.force, l, out.force);
-        A::set_spin(block.torque_i, l, out.torque_i);
-        A::set_spin(block.torque_j, l, out.torque_j);
-        if (parts) parts[k] = report<Frame>(arrays.at(k), arrays, block, k, l, out);
-      }
+      for (int l = 0; l < n; l++)
+        lane<Frame, adhesion, sliding, twisting, rolling, true>(arrays, block, first + l, l, dt, parts);
     }
     scatter<Frame, sliding || twisting || rolling>(list, bodies, first, n, block);
   }
@@ -249,4 +252,5 @@ ContactKernel contact_kernel(const KernelChoice &choice)
   return choice.planar ? with_adhesion<PlaneFrame>(choice) : with_adhesion<SpaceFrame>(choice);
 }
 
+}    // namespace APF_ISA
 }    // namespace apf

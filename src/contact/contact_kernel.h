@@ -40,6 +40,14 @@ using ContactKernel = void (*)(ContactList &list, const Bodies &bodies, double d
 // Contacts beyond the end of their neck exert nothing; the caller removes them (list.ended).
 ContactKernel contact_kernel(const KernelChoice &choice);
 
+// The same, built for one instruction set; contact_kernel() takes the best this processor has.
+namespace baseline {
+ContactKernel contact_kernel(const KernelChoice &choice);
+}
+namespace avx2 {
+ContactKernel contact_kernel(const KernelChoice &choice);
+}
+
 }    // namespace apf
 
 #endif

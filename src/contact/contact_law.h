@@ -25,10 +25,10 @@ struct SpaceFrame {
 
   Vec3 n;
 
-  Tangent slip(const Vec3 &v, double vn) const { return v - vn * n; }
-  Tangent slip_of_spin(const Spin &spin) const { return cross(spin, n); }
-  Vec3 force(const Tangent &t) const { return t; }
-  Spin torque_of_force(const Tangent &t) const { return cross(n, t); }
+  APF_INLINE Tangent slip(const Vec3 &v, double vn) const { return v - vn * n; }
+  APF_INLINE Tangent slip_of_spin(const Spin &spin) const { return cross(spin, n); }
+  APF_INLINE Vec3 force(const Tangent &t) const { return t; }
+  APF_INLINE Spin torque_of_force(const Tangent &t) const { return cross(n, t); }
 };
 
 struct PlaneFrame {
@@ -39,10 +39,10 @@ struct PlaneFrame {
 
   Vec2 n;
 
-  Tangent slip(const Vec2 &v, double) const { return n.x * v.y - n.y * v.x; }
-  Tangent slip_of_spin(Spin spin) const { return spin; }
-  Vec2 force(Tangent t) const { return {-n.y * t, n.x * t}; }
-  Spin torque_of_force(Tangent t) const { return t; }
+  APF_INLINE Tangent slip(const Vec2 &v, double) const { return n.x * v.y - n.y * v.x; }
+  APF_INLINE Tangent slip_of_spin(Spin spin) const { return spin; }
+  APF_INLINE Vec2 force(Tangent t) const { return {-n.y * t, n.x * t}; }
+  APF_INLINE Spin torque_of_force(Tangent t) const { return t; }
 };
 
 template <class Frame> struct ContactInput {
@@ -67,33 +67,20 @@ template <class Frame> struct ContactOutput {
   typename Frame::Spin rolling{};
 };
 
-// Carries a tangent-plane history along with the pair: the smallest rotation that takes the last
-// normal to the present one, then the mean spin of the two bodies about it. Exact for finite steps.
-struct FrameRotation {
-  Vec3 n, sum;          // present normal; last + present normal
-  double scale;         // 1 / (1 + n . n_last)
-  double cos_spin, sin_spin;
-
-  FrameRotation(const Vec3 &n, const Vec3 &last, double spin_angle) : n(n), sum(n + last)
-  {
-    scale = 1.0 / (1.0 + dot(n, last));
-    const double q = 0.25 * spin_angle * spin_angle;    // Cayley form: a rotation for any angle
-    const double inv = 1.0 / (1.0 + q);
-    cos_spin = (1.0 - q) * inv;
-    sin_spin = spin_angle * inv;
-  }
-
-  Vec3 operator()(const Vec3 &xi) const
-  {
-    const Vec3 tilted = xi - (dot(n, xi) * scale) * sum;
-    const Vec3 tangent = tilted - dot(n, tilted) * n;    // rounding only
-    return cos_spin * tangent + sin_spin * cross(n, tangent);
-  }
-};
+// Carries a vector of the contact plane along with the pair: the smallest rotation that takes the
+// last normal to the present one, then the mean spin of the two bodies about it. Exact for finite
+// steps. n, last: normals; scale = 1 / (1 + n . last); cosine, sine of the spin angle.
+APF_INLINE Vec3 carried(const Vec3 &xi, const Vec3 &n, const Vec3 &last, double scale, double cosine,
+                        double sine)
+{
+  const Vec3 tilted = xi - (dot(n, xi) * scale) * (n + last);
+  const Vec3 tangent = tilted - dot(n, tilted) * n;    // rounding only
+  return cosine * tangent + sine * cross(n, tangent);
+}
 
 // The whole law. dt = time since the last call; 0 evaluates without touching the history's length.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-inline ContactOutput<Frame> contact_law(const ContactConstants &c, const ContactInput<Frame> &in,
+APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c, const ContactInput<Frame> &in,
                                         double dt, ContactMemory<Frame> &memory)
 {
   ContactOutput<Frame> out;
@@ -125,14 +112,16 @@ inline ContactOutput<Frame> contact_law(const ContactConstants &c, const Contact
   out.force = (-(elastic + damping)) * frame.n;
 
   if constexpr (!Frame::planar && (sliding || rolling)) {
-    const Vec3 last = memory.normal;
-    const bool fresh = norm2(last) < 0.5;
-    const Vec3 from = {fresh ? frame.n.x : last.x, fresh ? frame.n.y : last.y,
-                       fresh ? frame.n.z : last.z};
-    const double spin = 0.5 * dt * dot(in.spin_i + in.spin_j, frame.n);
-    const FrameRotation rotate(frame.n, from, spin);
-    if constexpr (sliding) memory.sliding = rotate(memory.sliding);
-    if constexpr (rolling) memory.rolling = rotate(memory.rolling);
+    const Vec3 n = frame.n, old = memory.normal;
+    const double known = norm2(old) > 0.5 ? 1.0 : 0.0;    // 0 in the contact's first step
+    const Vec3 last = known * old + (1.0 - known) * n;
+    const double scale = 1.0 / (1.0 + dot(n, last));
+    const double angle = 0.5 * dt * dot(in.spin_i + in.spin_j, n);
+    const double q = 0.25 * angle * angle;    // Cayley form: a rotation for any angle
+    const double inv = 1.0 / (1.0 + q);
+    const double cosine = (1.0 - q) * inv, sine = angle * inv;
+    if constexpr (sliding) memory.sliding = carried(memory.sliding, n, last, scale, cosine, sine);
+    if constexpr (rolling) memory.rolling = carried(memory.rolling, n, last, scale, cosine, sine);
     memory.normal = frame.n;
   }
 

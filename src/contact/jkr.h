@@ -14,7 +14,7 @@
 #ifndef APF_JKR_H
 #define APF_JKR_H
 
-#include <cmath>
+#include "vector.h"
 
 namespace apf {
 
@@ -32,7 +32,7 @@ struct JKR {
     return {R, (4.0 / 3.0) * E * R * R, std::cbrt(std::pow(a0 / R, 1.5) / 6.0)};
   }
 
-  double neck3() const { return neck * neck * neck; }
+  APF_INLINE double neck3() const { return neck * neck * neck; }
   double pulloff_force() const { return 9.0 * K * neck3() * neck3(); }               // F_C, eq (41)
   double pulloff_overlap() const { return 3.0 * R * neck * neck * neck * neck; }     // delta_C > 0
   double equilibrium_radius() const { return R * std::cbrt(36.0 * neck3() * neck3()); }    // a0
@@ -45,7 +45,7 @@ struct JKR {
   double force(double s) const { return K * s * s * s * (s * s * s - 6.0 * neck3()); }
 
   // integral of force over overlap from the (virtual) state a = 0; only differences have a meaning
-  double energy(double s) const
+  APF_INLINE double energy(double s) const
   {
     const double s3 = s * s * s, s4 = s3 * s, m3 = neck3();
     return 4.0 * K * R * s4 * (0.1 * s3 * s3 - m3 * s3 + 1.5 * m3 * m3);
@@ -56,7 +56,7 @@ struct JKR {
 // the end of the neck. With t = s - m the law reads t^2 (t^2 + 4 m t + 6 m^2) = x; the start is the
 // root of a quadratic that follows t(x) within 2.5 % over all x, and two Halley steps bring that
 // to rounding error. The pole of dF/d(overlap) at the end of the neck does no harm in t.
-inline double jkr_root(double overlap, double inv_R, double neck)
+APF_INLINE double jkr_root(double overlap, double inv_R, double neck)
 {
   const double m2 = neck * neck;
   const double x_full = overlap * inv_R + 3.0 * m2 * m2;

@@ -21,7 +21,7 @@ namespace apf {
 //   v, dt  velocity of the slip and time since the last call; dt = 0 leaves the history alone
 //   xi     spring elongation, updated
 template <class Displacement>
-inline Displacement slider_force(double k, double eta, double limit, const Displacement &v,
+APF_INLINE Displacement slider_force(double k, double eta, double limit, const Displacement &v,
                                  double dt, Displacement &xi)
 {
   const Displacement stretched = xi + dt * v;

@@ -3,6 +3,8 @@
 #ifndef APF_TEST_SIMULATION_H
 #define APF_TEST_SIMULATION_H
 
+#define LAMMPS_LIB_MPI    // lammps_open with a communicator
+
 #include "atom.h"
 #include "exceptions.h"
 #include "input.h"

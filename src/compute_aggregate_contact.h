@@ -1,0 +1,71 @@
+// Aggregates: particles connected by contacts that are closed now, and what they measure.
+
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(aggregate/contact,ComputeAggregateContact);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_AGGREGATE_CONTACT_H
+#define LMP_COMPUTE_AGGREGATE_CONTACT_H
+
+#include "compute.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class ComputeAggregateContact : public Compute {
+ public:
+  ComputeAggregateContact(class LAMMPS *, int, char **);
+  ~ComputeAggregateContact() override;
+  void init() override;
+  void compute_peratom() override;
+  void compute_vector() override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+  double memory_usage() override;
+
+ private:
+  struct Contact {
+    int i, j;    // owned or ghost atoms
+    int root;    // the atom that stands for all that are connected with i and j on this rank
+  };
+  struct Part {      // what one rank holds of an aggregate; after the count: all of it
+    tagint id;       // smallest atom ID of the aggregate
+    bigint size;     // particles
+    int wall;        // 1 if one of them touches a wall
+    int rank;        // where the part came from
+    int position;    // and its number there
+  };
+  struct Totals {
+    bigint particles, aggregates;              // of aggregates of at least two particles
+    bigint wall_particles, wall_aggregates;    // of those that touch a wall
+  };
+
+  int nmax;                            // rows of array_atom
+  std::vector<Contact> contacts;       // closed contacts between particles of the group
+  std::vector<tagint> label;           // owned and ghost atoms: smallest ID found so far in the
+                                       // aggregate of the atom, 0 outside the group
+  std::vector<int> n_pair_contacts;    // owned and ghost atoms
+  std::vector<int> n_wall_contacts;    // owned atoms
+  Totals totals;
+  enum { LABEL, CONTACTS } reverse;    // what reverse_comm brings to the owner of an atom
+
+  void find_aggregates();
+  void start_labels();
+  void gather_contacts();
+  void gather_wall_contacts();
+  void connect_contacts();
+  void spread_labels();
+  void measure_aggregates();
+  void write_rows(const std::vector<Part> &, const std::vector<int> &);
+  static int add_parts(int, char *, int &, int *&, char *&, void *);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,23 @@
+// What a contact law demands of a scene, told before it runs.
+
+#ifndef APF_CONTACT_CHECKS_H
+#define APF_CONTACT_CHECKS_H
+
+#include "contact/stiffness.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+
+// Particles at rest that overlap by more than 5 % of the smaller radius: warning; 50 %: error.
+//   who   begins the message, as in "Pair granular/adhesive types 1 2"
+void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel &model, double R,
+                   double smaller_radius);
+
+// A warning where the step is too large for the stiffest mode, with the step that would do.
+void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,198 @@
+#include "contact_keywords.h"
+
+#include "error.h"
+#include "fmt/format.h"
+#include "material_file.h"
+#include "utils.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+// Reads words one after another; errors name command, keyword, value and range.
+class Words {
+ public:
+  Words(LAMMPS *lmp, const char *command, int narg, char **arg, int &iarg, int offset) :
+      lmp(lmp), command(command), narg(narg), arg(arg), iarg(iarg), offset(offset)
+  {
+  }
+
+  bool at_end() const { return iarg >= narg; }
+  bool is(const char *word) const { return !at_end() && strcmp(arg[iarg], word) == 0; }
+  bool is_number() const { return !at_end() && utils::is_double(arg[iarg]); }
+  void skip() { iarg++; }
+
+  void need(int n, const std::string &keyword) const
+  {
+    if (iarg + n > narg)
+      utils::missing_cmd_args(FLERR, fmt::format("{} {}", lower(), keyword), lmp->error);
+  }
+
+  const char *text(const std::string &keyword)
+  {
+    need(1, keyword);
+    return arg[iarg++];
+  }
+
+  double number(const std::string &keyword, double low, bool low_allowed, double high)
+  {
+    need(1, keyword);
+    const double value = utils::numeric(FLERR, arg[iarg], false, lmp);
+    if (!(low_allowed ? value >= low : value > low) || !(value <= high)) {
+      const std::string range = std::isinf(high)
+          ? fmt::format("{} {}", low_allowed ? ">=" : ">", low)
+          : fmt::format("in {}{}, {}]", low_allowed ? '[' : '(', low, high);
+      lmp->error->all(FLERR, offset + iarg, "{} {} must be {}, got {}", command, keyword, range,
+                      arg[iarg]);
+    }
+    iarg++;
+    return value;
+  }
+
+  [[noreturn]] void refuse(const std::string &message) const
+  {
+    lmp->error->all(FLERR, offset + (at_end() ? narg - 1 : iarg), "{} {}", command, message);
+  }
+
+ private:
+  LAMMPS *lmp;
+  const char *command;
+  int narg;
+  char **arg;
+  int &iarg;
+  int offset;
+
+  std::string lower() const { return utils::lowercase(command); }
+};
+
+constexpr double infinity = INFINITY;
+
+void parse_damping(Words &words, apf::ContactModel &model)
+{
+  if (words.is("tsuji")) {
+    words.skip();
+    model.alpha = apf::damping_from_restitution(
+        words.number("damping tsuji restitution", 0.0, false, 1.0));
+  } else if (words.is("alpha")) {
+    words.skip();
+    model.alpha = words.number("damping alpha", 0.0, true, infinity);
+  } else if (words.is("none")) {
+    words.skip();
+    model.alpha = 0.0;
+  } else {
+    words.need(1, "damping");
+    words.refuse("damping must be tsuji, alpha or none");
+  }
+}
+
+// true if the word was a keyword of the contact law
+bool parse_keyword(Words &words, apf::ContactModel &model)
+{
+  if (words.is("damping")) {
+    words.skip();
+    parse_damping(words, model);
+  } else if (words.is("sliding")) {
+    words.skip();
+    model.mu = words.number("sliding mu", 0.0, true, infinity);
+  } else if (words.is("twisting")) {
+    words.skip();
+    words.need(1, "twisting");
+    if (!words.is("yes") && !words.is("no")) words.refuse("twisting must be yes or no");
+    model.twisting = words.is("yes");
+    words.skip();
+  } else if (words.is("rolling")) {
+    words.skip();
+    model.theta_crit = words.number("rolling theta_crit", 0.0, true, 1.0);
+    if (words.is_number()) model.zeta = words.number("rolling zeta", 0.0, true, infinity);
+  } else if (words.is("break")) {
+    words.skip();
+    words.need(1, "break");
+    if (words.is("displacement"))
+      model.neck_end = apf::Break::displacement;
+    else if (words.is("force"))
+      model.neck_end = apf::Break::force;
+    else
+      words.refuse("break must be displacement or force");
+    words.skip();
+  } else if (words.is("scale_stiffness")) {
+    words.skip();
+    model.stiffness_scale = words.number("scale_stiffness", 0.0, false, 1.0);
+  } else if (words.is("bridge")) {
+    words.refuse("keyword bridge (liquid bridges) is not available in this version");
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+ContactCoeff LAMMPS_NS::parse_contact(LAMMPS *lmp, const char *command, int narg, char **arg,
+                                      int &iarg, int offset)
+{
+  Words words(lmp, command, narg, arg, iarg, offset);
+  ContactCoeff coeff;
+  words.need(1, "jkr|material");
+  if (words.is("jkr")) {
+    words.skip();
+    words.need(3, "jkr");
+    coeff.material.E = words.number("Young's modulus E", 0.0, false, infinity);
+    coeff.material.nu = words.number("Poisson's ratio nu", -1.0, false, 0.5);
+    coeff.material.gamma = words.number("surface energy gamma", 0.0, true, infinity);
+  } else if (words.is("material")) {
+    words.skip();
+    words.need(2, "material");
+    const char *file = words.text("material FILE");
+    const char *name = words.text("material NAME");
+    coeff.material = apf::read_material(lmp, file, name, command, offset + iarg - 2);
+  } else {
+    words.refuse(fmt::format("contact law must be jkr or material, got {}", arg[iarg]));
+  }
+
+  while (!words.at_end() && parse_keyword(words, coeff.model)) {}
+
+  coeff.model.surface = apf::interface(coeff.material, coeff.material);
+  if (coeff.model.twisting && !coeff.model.sliding())
+    words.refuse("twisting yes needs sliding mu > 0, which limits its torque");
+  if (coeff.model.rolling() && !coeff.model.adhesive())
+    words.refuse("rolling needs adhesion, surface energy gamma > 0: its moment is 4 F_C xi");
+  return coeff;
+}
+
+/* ---------------------------------------------------------------------- */
+
+ContactCoeff ContactCoeff::mixed(const ContactCoeff &i, const ContactCoeff &j)
+{
+  ContactCoeff c;
+  c.material = i.material;    // not used: the surface is that of both
+  c.model.surface = apf::interface(i.material, j.material);
+  c.model.alpha = std::sqrt(i.model.alpha * j.model.alpha);
+  c.model.mu = std::sqrt(i.model.mu * j.model.mu);
+  c.model.twisting = i.model.twisting && j.model.twisting;
+  c.model.theta_crit = std::sqrt(i.model.theta_crit * j.model.theta_crit);
+  if (!c.model.adhesive()) c.model.theta_crit = 0.0;
+  c.model.zeta = std::sqrt(i.model.zeta * j.model.zeta);
+  c.model.neck_end = (i.model.neck_end == apf::Break::force) ? i.model.neck_end : j.model.neck_end;
+  c.model.stiffness_scale = std::sqrt(i.model.stiffness_scale * j.model.stiffness_scale);
+  return c;
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string ContactCoeff::words() const
+{
+  std::string text = fmt::format("jkr {:.16g} {:.16g} {:.16g} damping alpha {:.16g}", material.E,
+                                 material.nu, material.gamma, model.alpha);
+  if (model.sliding()) text += fmt::format(" sliding {:.16g}", model.mu);
+  if (model.twisting) text += " twisting yes";
+  if (model.rolling()) text += fmt::format(" rolling {:.16g} {:.16g}", model.theta_crit, model.zeta);
+  if (model.neck_end == apf::Break::force) text += " break force";
+  if (model.stiffness_scale != 1.0)
+    text += fmt::format(" scale_stiffness {:.16g}", model.stiffness_scale);
+  return text;
+}

@@ -1,0 +1,34 @@
+// The words that name a contact law, the same after pair_coeff I J and in fix wall/levelset:
+//   jkr E nu gamma [keyword values] | material FILE NAME [keyword values]
+
+#ifndef APF_CONTACT_KEYWORDS_H
+#define APF_CONTACT_KEYWORDS_H
+
+#include "contact/contact_model.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+
+struct ContactCoeff {
+  apf::Material material{};      // of both bodies
+  apf::ContactModel model{};     // its surface is interface(material, material)
+
+  // Two materials that no script line joins: surfaces by eq (16) and Berthelot; damping, friction,
+  // rolling angle and its damping by geometric mean; a sub-model acts if both have it.
+  static ContactCoeff mixed(const ContactCoeff &i, const ContactCoeff &j);
+
+  // the words again, for data files
+  std::string words() const;
+};
+
+// Parses arg[iarg..narg) up to the first word it does not know, which iarg then points at.
+//   command    names the command in errors, as in "Pair granular/adhesive"
+//   offset     added to an argument's index in errors: words of the input line before arg[0]
+ContactCoeff parse_contact(LAMMPS *lmp, const char *command, int narg, char **arg, int &iarg,
+                           int offset);
+
+}    // namespace LAMMPS_NS
+
+#endif

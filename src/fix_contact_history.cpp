@@ -1,0 +1,137 @@
+#include "fix_contact_history.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "modify.h"
+#include "pair_granular_adhesive.h"
+#include "respa.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixContactHistory::FixContactHistory(LAMMPS *lmp, int narg, char **arg) : FixContacts(lmp, narg, arg)
+{
+  if (narg != 3) error->all(FLERR, 3, "Fix contact/history takes no arguments, got {}", arg[3]);
+  comm_forward = 6;
+}
+
+int FixContactHistory::setmask()
+{
+  return FixContacts::setmask() | PRE_NEIGHBOR | MIN_PRE_NEIGHBOR;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixContactHistory::init()
+{
+  if (!pair)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix contact/history is internal to pair style granular/adhesive: use that instead");
+  // histories must stand with their atoms before another fix moves these to other ranks
+  for (const auto &fix : modify->get_fix_list()) {
+    if (fix == this) break;
+    if (fix->pre_exchange_migrate)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style granular/adhesive must be defined before fix {} {}, which moves atoms "
+                 "between ranks", fix->id, fix->style);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixContactHistory::level() const
+{
+  return dynamic_cast<Respa *>(update->integrate)->level_pair;
+}
+
+void FixContactHistory::synchronize()
+{
+  start_or_predict();
+  comm->forward_comm(this);
+}
+
+// Ghosts of a sheared periodic box move relative to their owners, as CommBrick does it for v.
+int FixContactHistory::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int *pbc)
+{
+  double dv[3] = {0.0, 0.0, 0.0};
+  if (pbc_flag && domain->deform_vremap) {
+    dv[0] = pbc[0] * domain->h_rate[0] + pbc[5] * domain->h_rate[5] + pbc[4] * domain->h_rate[4];
+    dv[1] = pbc[1] * domain->h_rate[1] + pbc[3] * domain->h_rate[3];
+    dv[2] = pbc[2] * domain->h_rate[2];
+  }
+  int m = 0;
+  for (int k = 0; k < n; k++) {
+    const int i = list[k];
+    const bool remapped = domain->deform_vremap && (atom->mask[i] & domain->deform_groupbit);
+    for (int c = 0; c < 3; c++) buf[m++] = velocities.v[3 * i + c] + (remapped ? dv[c] : 0.0);
+    for (int c = 0; c < 3; c++) buf[m++] = velocities.omega[3 * i + c];
+  }
+  return m;
+}
+
+void FixContactHistory::unpack_forward_comm(int n, int first, double *buf)
+{
+  for (int i = first; i < first + n; i++) {
+    for (int c = 0; c < 3; c++) velocities.v[3 * i + c] = *buf++;
+    for (int c = 0; c < 3; c++) velocities.omega[3 * i + c] = *buf++;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the neighbour list compares distances with sums of radii: for the time of its build all particles
+   are larger by half the longest neck, so that no neck is lost, whatever the skin
+------------------------------------------------------------------------- */
+
+void FixContactHistory::pre_neighbor()
+{
+  radius_growth = 0.5 * pair->longest_neck();
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) atom->radius[i] += radius_growth;
+}
+
+void FixContactHistory::post_neighbor()
+{
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) atom->radius[i] -= radius_growth;
+  pair->list_was_built();
+}
+
+/* ----------------------------------------------------------------------
+   each contact goes to both its atoms, to those of other ranks as well
+------------------------------------------------------------------------- */
+
+void FixContactHistory::store_contacts()
+{
+  const auto &contacts = pair->closed_contacts();
+  const tagint *tag = atom->tag;
+  const int nlocal = atom->nlocal;
+  store.clear_range(0, nlocal + atom->nghost);
+  for (int k = 0; k < contacts.size(); k++) {
+    const int i = contacts.i[k], j = contacts.j[k];
+    const auto history = contacts.history_of(k);
+    store.add(i, tag[j], history);
+    if (j < nlocal || force->newton_pair) store.add(j, tag[i], history.swapped(pair->planar()));
+  }
+  if (!force->newton_pair) return;
+  int size = 1;    // longest message per ghost; those sent may be shorter
+  for (int i = nlocal; i < nlocal + atom->nghost; i++) size = MAX(size, store.size(i));
+  MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_INT, MPI_MAX, world);
+  if (size > 1) comm->reverse_comm(this, size);
+}
+
+int FixContactHistory::pack_reverse_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int i = first; i < first + n; i++) m += store.pack(i, buf + m);
+  return m;
+}
+
+void FixContactHistory::unpack_reverse_comm(int n, int *list, double *buf)
+{
+  int m = 0;
+  for (int k = 0; k < n; k++) m += store.unpack(list[k], buf + m);
+}

@@ -1,0 +1,56 @@
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(contact/history,FixContactHistory);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_CONTACT_HISTORY_H
+#define LMP_FIX_CONTACT_HISTORY_H
+
+#include "fix_contacts.h"
+
+namespace LAMMPS_NS {
+
+// Serves one pair style granular/adhesive, which creates it: keeps its contacts, makes the
+// neighbour list reach to the end of the longest neck, and provides velocities at the time of the
+// positions for ghosts too.
+
+class FixContactHistory : public FixContacts {
+ public:
+  FixContactHistory(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup_pre_neighbor() override { pre_neighbor(); }
+  void pre_neighbor() override;
+  void min_pre_neighbor() override { pre_neighbor(); }
+  void post_neighbor() override;
+
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+
+  void serve(class PairGranularAdhesive *style) { pair = style; }
+
+  // history of atom i's contact with the atom of that ID at the last rebuild; nullptr if none
+  const apf::ContactHistory *find(int i, tagint partner) const { return store.find(i, partner); }
+
+  // velocities at the time of the positions, local and ghost atoms: [atoms][3]
+  void synchronize();
+  const double *velocity() const { return velocities.v.data(); }
+  const double *omega() const { return velocities.omega.data(); }
+  using FixContacts::step_of_level;
+
+ protected:
+  void store_contacts() override;
+  int level() const override;
+
+ private:
+  class PairGranularAdhesive *pair = nullptr;
+  double radius_growth = 0.0;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

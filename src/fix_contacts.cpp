@@ -1,0 +1,158 @@
+#include "fix_contacts.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "respa.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixContacts::FixContacts(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  restart_peratom = 1;
+  restart_global = 1;    // write_restart() also brings the per-atom data up to date
+  create_attribute = 1;
+  maxexchange_dynamic = 1;
+  maxexchange = SynchronousVelocity::size + 1;
+  FixContacts::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+}
+
+FixContacts::~FixContacts()
+{
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+}
+
+int FixContacts::setmask()
+{
+  return POST_INTEGRATE | POST_INTEGRATE_RESPA | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR |
+      MIN_POST_NEIGHBOR | POST_RUN;
+}
+
+/* ----------------------------------------------------------------------
+   positions are new, velocities half a step behind
+------------------------------------------------------------------------- */
+
+void FixContacts::post_integrate()
+{
+  velocities.advance(atom, false);
+}
+
+void FixContacts::post_integrate_respa(int ilevel, int iloop)
+{
+  const auto *respa = dynamic_cast<Respa *>(update->integrate);
+  if (ilevel == level()) velocities.advance(atom, iloop == 0 && ilevel < respa->nlevels - 1);
+}
+
+void FixContacts::start_or_predict()
+{
+  if (update->setupflag)
+    velocities.start(atom);
+  else
+    velocities.predict(atom);
+}
+
+double FixContacts::step_of_level() const
+{
+  const auto *respa = dynamic_cast<Respa *>(update->integrate);
+  return respa ? respa->step[level()] : update->dt;
+}
+
+/* ----------------------------------------------------------------------
+   contacts are put where their atoms can take them along:
+   before atoms move, at the end of a run (atoms may be deleted after it), for restart files
+------------------------------------------------------------------------- */
+
+void FixContacts::pre_exchange()
+{
+  store_contacts();
+  maxexchange = SynchronousVelocity::size + store.max_size(atom->nlocal);
+}
+
+void FixContacts::post_run()
+{
+  pre_exchange();
+  velocities.remember(atom);
+}
+
+void FixContacts::write_restart(FILE *fp)
+{
+  if (update->whichflag) post_run();    // within a run; else the end of the last run has done it
+  const auto state = global_state();
+  if (comm->me != 0) return;
+  const int bytes = static_cast<int>(state.size() * sizeof(double));
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(state.data(), sizeof(double), state.size(), fp);
+}
+
+void FixContacts::restart(char *buf)
+{
+  set_global_state(reinterpret_cast<const double *>(buf));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixContacts::grow_arrays(int nmax)
+{
+  store.grow(nmax);
+  velocities.grow(nmax);
+}
+
+void FixContacts::copy_arrays(int i, int j, int /*delflag*/)
+{
+  store.copy(i, j);
+  velocities.copy(i, j);
+}
+
+void FixContacts::set_arrays(int i)
+{
+  store.clear(i);
+  velocities.insert(atom, i);
+}
+
+int FixContacts::pack_exchange(int i, double *buf)
+{
+  const int m = velocities.pack(i, buf);
+  return m + store.pack(i, buf + m);
+}
+
+int FixContacts::unpack_exchange(int i, double *buf)
+{
+  const int m = velocities.unpack(i, buf);
+  store.clear(i);
+  return m + store.unpack(i, buf + m);
+}
+
+int FixContacts::pack_restart(int i, double *buf)
+{
+  buf[0] = 1 + pack_exchange(i, buf + 1);
+  return static_cast<int>(buf[0]);
+}
+
+void FixContacts::unpack_restart(int i, int nth)
+{
+  double *extra = atom->extra[i];
+  int m = 0;
+  for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
+  unpack_exchange(i, extra + m + 1);
+}
+
+int FixContacts::size_restart(int i)
+{
+  return 1 + SynchronousVelocity::size + store.size(i);
+}
+
+int FixContacts::maxsize_restart()
+{
+  return 1 + SynchronousVelocity::size + store.max_size(atom->nlocal);
+}
+
+double FixContacts::memory_usage()
+{
+  return store.memory_usage() + atom->nmax * (SynchronousVelocity::size + 6.0) * sizeof(double);
+}

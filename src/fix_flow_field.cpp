@@ -1,0 +1,265 @@
+#include "fix_flow_field.h"
+
+#include "domain.h"
+#include "error.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "variable.h"
+
+#include <cstring>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixFlowField::FixFlowField(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), density(0.0), viscosity(0.0), varies(false), evaluated(-1)
+{
+  if (narg < 4) utils::missing_cmd_args(FLERR, "fix flow/field", error);
+
+  dynamic_group_allow = 1;
+  vector_flag = 1;
+  size_vector = 5;
+  global_freq = 1;
+  extvector = 0;
+
+  int iarg = parse_kind(narg, arg);
+  while (iarg < narg) {
+    const bool is_density = strcmp(arg[iarg], "density") == 0;
+    if (!is_density && strcmp(arg[iarg], "viscosity") != 0)
+      error->all(FLERR, iarg, "Fix flow/field keyword must be density or viscosity, got {}",
+                 arg[iarg]);
+    if (iarg + 2 > narg)
+      utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + arg[iarg], error);
+    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (!(value > 0.0))
+      error->all(FLERR, iarg + 1, "Fix flow/field {} must be > 0, got {}", arg[iarg],
+                 arg[iarg + 1]);
+    (is_density ? density : viscosity) = value;
+    iarg += 2;
+  }
+  if (density == 0.0) error->all(FLERR, "Fix flow/field requires keyword density");
+  if (viscosity == 0.0) error->all(FLERR, "Fix flow/field requires keyword viscosity");
+  set_speed();
+}
+
+/* ----------------------------------------------------------------------
+   parse the kind of flow and its values; return index of next argument
+------------------------------------------------------------------------- */
+
+int FixFlowField::parse_kind(int narg, char **arg)
+{
+  struct Kind {
+    const char *name;
+    int nvalues;
+    int (FixFlowField::*parse)(char **);
+  };
+  static const Kind kinds[] = {{"channel", 5, &FixFlowField::parse_channel},
+                               {"pipe", 5, &FixFlowField::parse_pipe},
+                               {"uniform", 3, &FixFlowField::parse_uniform},
+                               {"shear", 4, &FixFlowField::parse_shear}};
+  for (const auto &kind : kinds) {
+    if (strcmp(arg[3], kind.name) != 0) continue;
+    if (narg < 4 + kind.nvalues)
+      utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + kind.name, error);
+    return (this->*kind.parse)(arg);
+  }
+  if (strcmp(arg[3], "file") == 0)
+    error->all(FLERR, 3, "Fix flow/field kind file is not available in this version of APF");
+  error->all(FLERR, 3, "Fix flow/field kind must be channel, pipe, uniform or shear, got {}",
+             arg[3]);
+  return 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixFlowField::parse_channel(char **arg)
+{
+  apf::ChannelFlow channel{};
+  channel.flow = axis(arg[4], 4);
+  channel.wall = axis(arg[5], 5);
+  if (channel.wall == channel.flow)
+    error->all(FLERR, 5, "Fix flow/field channel wall axis must differ from flow axis {}", arg[4]);
+  channel.lo = utils::numeric(FLERR, arg[6], false, lmp);
+  channel.hi = utils::numeric(FLERR, arg[7], false, lmp);
+  if (!(channel.lo < channel.hi))
+    error->all(FLERR, 7, "Fix flow/field channel upper wall must be > lower wall {}, got {}",
+               arg[6], arg[7]);
+  speed[0] = parse_speed(arg[8]);
+  flow = channel;
+  return 9;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixFlowField::parse_pipe(char **arg)
+{
+  if (domain->dimension == 2)
+    error->all(FLERR, 3, "Fix flow/field pipe requires a 3d simulation; use channel in 2d");
+  apf::PipeFlow pipe{};
+  pipe.flow = axis(arg[4], 4);
+  pipe.across[0] = pipe.flow == 0 ? 1 : 0;
+  pipe.across[1] = pipe.flow == 2 ? 1 : 2;
+  pipe.centre[0] = utils::numeric(FLERR, arg[5], false, lmp);
+  pipe.centre[1] = utils::numeric(FLERR, arg[6], false, lmp);
+  pipe.radius = utils::numeric(FLERR, arg[7], false, lmp);
+  if (!(pipe.radius > 0.0))
+    error->all(FLERR, 7, "Fix flow/field pipe radius must be > 0, got {}", arg[7]);
+  speed[0] = parse_speed(arg[8]);
+  flow = pipe;
+  return 9;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixFlowField::parse_uniform(char **arg)
+{
+  for (int k = 0; k < 3; k++) speed[k] = parse_speed(arg[4 + k]);
+  if (domain->dimension == 2 && (speed[2].value != 0.0 || !speed[2].variable.empty()))
+    error->all(FLERR, 6, "Fix flow/field uniform z velocity must be 0 in a 2d simulation, got {}",
+               arg[6]);
+  flow = apf::UniformFlow{};
+  return 7;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixFlowField::parse_shear(char **arg)
+{
+  apf::ShearFlow shear{};
+  shear.flow = axis(arg[4], 4);
+  shear.gradient = axis(arg[5], 5);
+  if (shear.gradient == shear.flow)
+    error->all(FLERR, 5, "Fix flow/field shear gradient axis must differ from flow axis {}",
+               arg[4]);
+  speed[0] = parse_speed(arg[6]);
+  shear.origin = utils::numeric(FLERR, arg[7], false, lmp);
+  flow = shear;
+  return 8;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixFlowField::axis(const char *word, int iarg)
+{
+  const bool planar = domain->dimension == 2;
+  if (strcmp(word, "x") == 0) return 0;
+  if (strcmp(word, "y") == 0) return 1;
+  if (strcmp(word, "z") == 0 && !planar) return 2;
+  error->all(FLERR, iarg, "Fix flow/field axis must be {}, got {}",
+             planar ? "x or y in a 2d simulation" : "x, y or z", word);
+  return 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixFlowField::Speed FixFlowField::parse_speed(const char *word)
+{
+  Speed result;
+  if (utils::strmatch(word, "^v_")) {
+    result.variable = word + 2;
+    varies = true;
+  } else
+    result.value = utils::numeric(FLERR, word, false, lmp);
+  return result;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixFlowField::setmask()
+{
+  return varies ? PRE_FORCE | PRE_FORCE_RESPA : 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowField::init()
+{
+  for (auto &one : speed) {
+    if (one.variable.empty()) continue;
+    one.index = input->variable->find(one.variable.c_str());
+    if (one.index < 0) error->all(FLERR, "Fix flow/field variable {} does not exist", one.variable);
+    if (!input->variable->equalstyle(one.index))
+      error->all(FLERR, "Fix flow/field variable {} must be of style equal", one.variable);
+  }
+  evaluated = -1;
+}
+
+/* ----------------------------------------------------------------------
+   evaluate variables before the first force of a step, whatever its level
+------------------------------------------------------------------------- */
+
+void FixFlowField::setup_pre_force(int /*vflag*/)
+{
+  evaluate();
+}
+
+void FixFlowField::setup_pre_force_respa(int /*vflag*/, int /*ilevel*/)
+{
+  evaluate();
+}
+
+void FixFlowField::pre_force(int /*vflag*/)
+{
+  evaluate();
+}
+
+void FixFlowField::pre_force_respa(int /*vflag*/, int /*ilevel*/, int /*iloop*/)
+{
+  evaluate();
+}
+
+void FixFlowField::evaluate()
+{
+  if (evaluated == update->ntimestep) return;
+  evaluated = update->ntimestep;
+
+  modify->clearstep_compute();
+  for (auto &one : speed)
+    if (one.index >= 0) one.value = input->variable->compute_equal(one.index);
+  modify->addstep_compute(update->ntimestep + 1);
+  set_speed();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowField::set_speed()
+{
+  if (auto *uniform = std::get_if<apf::UniformFlow>(&flow))
+    uniform->speed = {speed[0].value, speed[1].value, speed[2].value};
+  else if (auto *shear = std::get_if<apf::ShearFlow>(&flow))
+    shear->rate = speed[0].value;
+  else if (auto *channel = std::get_if<apf::ChannelFlow>(&flow))
+    channel->umax = speed[0].value;
+  else if (auto *pipe = std::get_if<apf::PipeFlow>(&flow))
+    pipe->umax = speed[0].value;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowField::sample(int n, const double *const *x, const int *mask, int group,
+                          apf::Vec3 *velocity, apf::Vec3 *vorticity) const
+{
+  std::visit(
+      [=](const auto &kind) {
+        for (int i = 0; i < n; i++)
+          if (mask[i] & group) velocity[i] = kind.velocity(x[i]);
+        if (!vorticity) return;
+        for (int i = 0; i < n; i++)
+          if (mask[i] & group) vorticity[i] = kind.vorticity(x[i]);
+      },
+      flow);
+}
+
+/* ----------------------------------------------------------------------
+   1-3 = velocities or rate that the flow has now, 4 = density, 5 = viscosity
+------------------------------------------------------------------------- */
+
+double FixFlowField::compute_vector(int n)
+{
+  if (n < 3) return speed[n].value;
+  return n == 3 ? density : viscosity;
+}

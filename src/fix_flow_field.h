@@ -1,0 +1,69 @@
+// A fluid's velocity field, density and viscosity, for the fixes that act on particles.
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(flow/field,FixFlowField);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_FLOW_FIELD_H
+#define LMP_FIX_FLOW_FIELD_H
+
+#include "fix.h"
+
+#include "flow/flow_field.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+class FixFlowField : public Fix {
+ public:
+  FixFlowField(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void setup_pre_force_respa(int, int) override;
+  void pre_force(int) override;
+  void pre_force_respa(int, int, int) override;
+  double compute_vector(int) override;
+
+  double density;      // of the fluid                                 [mass/length^3]
+  double viscosity;    // dynamic                                      [pressure time]
+
+  // Fluid velocity, and vorticity unless it is null, at x[i] for all i < n with mask[i] & group;
+  // other elements are left alone. Values are those of the current step.
+  void sample(int n, const double *const *x, const int *mask, int group, apf::Vec3 *velocity,
+              apf::Vec3 *vorticity) const;
+
+  // the same field for a caller that has its own loop: std::visit(loop, field())
+  const apf::FlowField &field() const { return flow; }
+
+ private:
+  // a number, or an equal-style variable that is evaluated each step
+  struct Speed {
+    double value = 0.0;
+    std::string variable;
+    int index = -1;
+  };
+
+  apf::FlowField flow;
+  Speed speed[3];    // umax | rate | the three components of uniform flow
+  bool varies;
+  bigint evaluated;    // time step of the variables' values
+
+  int parse_kind(int narg, char **arg);
+  int parse_channel(char **arg);
+  int parse_pipe(char **arg);
+  int parse_uniform(char **arg);
+  int parse_shear(char **arg);
+  int axis(const char *word, int iarg);
+  Speed parse_speed(const char *word);
+  void evaluate();
+  void set_speed();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,470 @@
+#include "fix_wall_levelset.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "contact_checks.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "math_const.h"
+#include "modify.h"
+#include "pair.h"
+#include "respa.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+static constexpr const char *command = "Fix wall/levelset";
+
+/* ---------------------------------------------------------------------- */
+
+FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
+    FixContacts(lmp, narg, arg), kernel(nullptr)
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    error->all(FLERR, 2, "{} needs atom style sphere: radius, mass, omega and torque per atom; atom "
+               "style {} has not all of them", command, atom->get_style());
+  scalar_flag = 1;
+  vector_flag = 1;
+  size_vector = 9;
+  global_freq = 1;
+  extscalar = 1;
+  extvector = 1;
+  energy_global_flag = 1;
+  virial_global_flag = virial_peratom_flag = 1;
+  respa_level_support = 1;
+  dynamic_group_allow = 1;
+
+  int iarg = 3;
+  parse_surfaces(narg, arg, iarg);
+  coefficient = parse_contact(lmp, command, narg, arg, iarg, 0);
+  if (iarg < narg) {
+    if (strcmp(arg[iarg], "zone") == 0)
+      error->all(FLERR, iarg, "{} keyword zone is not available in this version", command);
+    error->all(FLERR, iarg, "{} keyword {} is unknown; known are damping, sliding, twisting, rolling, "
+               "break, scale_stiffness", command, arg[iarg]);
+  }
+  choice.planar = domain->dimension == 2;
+  choice.include(coefficient.model);
+  kernel = apf::contact_kernel(choice);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixWallLevelset::parse_surfaces(int narg, char **arg, int &iarg)
+{
+  auto dimension = [&](const char *shape) {
+    const std::string word = arg[iarg];
+    if (word != "x" && word != "y" && word != "z")
+      error->all(FLERR, iarg, "{} {} dimension must be x, y or z, got {}", command, shape, word);
+    iarg++;
+    return word[0] - 'x';
+  };
+  auto number = [&]() { return utils::numeric(FLERR, arg[iarg++], false, lmp); };
+
+  if (narg < 4) utils::missing_cmd_args(FLERR, "fix wall/levelset", error);
+  const std::string shape = arg[iarg++];
+  if (shape == "plane") {
+    if (narg < iarg + 3) utils::missing_cmd_args(FLERR, "fix wall/levelset plane", error);
+    const int dim = dimension("plane");
+    if (domain->periodicity[dim])
+      error->all(FLERR, iarg - 1, "{} plane needs a box that is not periodic in {}", command,
+                 arg[iarg - 1]);
+    const int first = iarg;
+    for (const double side : {1.0, -1.0}) {
+      if (strcmp(arg[iarg], "NULL") == 0)
+        iarg++;
+      else
+        surfaces.push_back(apf::Surface::plane(dim, number(), side));
+    }
+    if (surfaces.empty())
+      error->all(FLERR, first, "{} plane needs LO or HI, both are NULL", command);
+    if (surfaces.size() == 2 && surfaces[0].origin[0] >= surfaces[1].origin[0])
+      error->all(FLERR, first, "{} plane LO must be < HI, got {} and {}", command, arg[first],
+                 arg[first + 1]);
+  } else if (shape == "cylinder") {
+    if (narg < iarg + 5) utils::missing_cmd_args(FLERR, "fix wall/levelset cylinder", error);
+    const int dim = dimension("cylinder");
+    if (domain->dimension == 2 && dim != 2)
+      error->all(FLERR, iarg - 1, "{} cylinder axis must be z in 2 dimensions, got {}", command,
+                 arg[iarg - 1]);
+    const double c1 = number(), c2 = number(), radius = number();
+    if (radius <= 0.0)
+      error->all(FLERR, iarg - 1, "{} cylinder radius must be > 0, got {}", command, arg[iarg - 1]);
+    const std::string side = arg[iarg++];
+    if (side != "inside" && side != "outside")
+      error->all(FLERR, iarg - 1, "{} cylinder side of the fluid must be inside or outside, got {}",
+                 command, side);
+    surfaces.push_back(apf::Surface::cylinder(dim, c1, c2, radius, side == "inside" ? -1.0 : 1.0));
+  } else if (shape == "file") {
+    error->all(FLERR, iarg - 1, "{} file is not available in this version", command);
+  } else {
+    error->all(FLERR, iarg - 1, "{} shape must be plane or cylinder, got {}", command, shape);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixWallLevelset::setmask()
+{
+  return FixContacts::setmask() | POST_FORCE | POST_FORCE_RESPA | MIN_POST_FORCE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixWallLevelset::init()
+{
+  rigid = nullptr;
+  for (const auto &fix : modify->get_fix_list())
+    if (fix->rigid_flag) rigid = fix;
+
+  if (const auto *respa = dynamic_cast<Respa *>(update->integrate))
+    if (respa_level > respa->nlevels)
+      error->all(FLERR, Error::NOLASTLINE, "{} respa level must be in [1, {}], got {}", command,
+                 respa->nlevels, respa_level);
+
+  // the smallest and lightest particle decides about overlap and time step
+  double inverse[2] = {0.0, 0.0}, smallest[2];
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) {
+      inverse[0] = MAX(inverse[0], 1.0 / atom->radius[i]);
+      inverse[1] = MAX(inverse[1], 1.0 / atom->rmass[i]);
+    }
+  MPI_Allreduce(inverse, smallest, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (smallest[0] == 0.0) return;
+  const double r = 1.0 / smallest[0], m = 1.0 / smallest[1];
+  check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, r, r);
+  check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
+                 apf::stiffest_mode(coefficient.model, apf::ContactBodies::wall(r, m, 0.4 * m * r * r)),
+                 step_of_level());
+}
+
+/* ----------------------------------------------------------------------
+   level of r-RESPA: that of fix_modify, else the pair style's, else the outermost
+------------------------------------------------------------------------- */
+
+int FixWallLevelset::level() const
+{
+  const auto *respa = dynamic_cast<Respa *>(update->integrate);
+  if (respa_level > 0) return respa_level - 1;
+  return respa->level_pair >= 0 ? respa->level_pair : respa->nlevels - 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixWallLevelset::setup(int vflag)
+{
+  if (auto *respa = dynamic_cast<Respa *>(update->integrate)) {
+    respa->copy_flevel_f(level());
+    post_force(vflag);
+    respa->copy_f_flevel(level());
+  } else
+    post_force(vflag);
+}
+
+void FixWallLevelset::min_setup(int vflag)
+{
+  post_force(vflag);
+}
+
+void FixWallLevelset::min_post_force(int vflag)
+{
+  post_force(vflag);
+}
+
+void FixWallLevelset::post_force_respa(int vflag, int ilevel, int)
+{
+  if (ilevel == level()) post_force(vflag);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixWallLevelset::post_force(int vflag)
+{
+  v_init(vflag);
+  touched.resize(atom->nmax, 0);
+  if (rebuild) find_again();
+  start_or_predict();
+  detect();
+  gather();
+  const double dt = update->setupflag ? 0.0 : step_of_level();
+  if (contacts.size() > 0)
+    kernel(contacts,
+           {rows.x.data(), rows.v.data(), rows.omega.data(), rows.f.data(), rows.torque.data()}, dt,
+           nullptr);
+  scatter(vflag);
+  remove_ended();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixWallLevelset::detect()
+{
+  for (int s = 0; s < static_cast<int>(surfaces.size()); s++) {
+    const auto &surface = surfaces[s];
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      const double distance = surface.distance(atom->x[i]);
+      if (distance > atom->radius[i] || (touched[i] >> s & 1)) continue;
+      if (distance <= 0.0)
+        error->one(FLERR, Error::NOLASTLINE,
+                   "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
+                   "inside, or use a smaller timestep", command, id, atom->tag[i], -distance);
+      close(i, s, apf::ContactHistory());
+      captured += 1.0;
+    }
+  }
+}
+
+void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &history)
+{
+  double m = atom->rmass[i];
+  const double r = atom->radius[i], I = 0.4 * m * r * r;
+  if (rigid) {
+    int dim;
+    const auto *body = static_cast<int *>(rigid->extract("body", dim));
+    const auto *mass = static_cast<double *>(rigid->extract("masstotal", dim));
+    if (body && mass && body[i] >= 0) m = mass[body[i]];
+  }
+  const int k = contacts.size();
+  contacts.add(2 * k, 2 * k + 1, i,
+               apf::ContactConstants::make(coefficient.model, apf::ContactBodies::wall(r, m, I)), history);
+  surface_of.push_back(surface);
+  touched[i] |= 1u << surface;
+}
+
+void FixWallLevelset::remove_ended()
+{
+  for (int k = contacts.size() - 1; k >= 0; k--) {
+    if (!contacts.ended(k)) continue;
+    touched[contacts.source[k]] &= ~(1u << surface_of[k]);
+    contacts.remove(k);
+    surface_of[k] = surface_of.back();
+    surface_of.pop_back();
+    if (k < contacts.size()) {
+      contacts.i[k] = 2 * k;
+      contacts.j[k] = 2 * k + 1;
+    }
+    detached += 1.0;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   rows of the kernel: particle and foot point; the wall is at rest
+------------------------------------------------------------------------- */
+
+void FixWallLevelset::Rows::resize(int n)
+{
+  x.resize(3 * n);
+  v.assign(3 * n, 0.0);
+  omega.assign(3 * n, 0.0);
+  f.assign(3 * n, 0.0);
+  torque.assign(3 * n, 0.0);
+}
+
+void FixWallLevelset::gather()
+{
+  rows.resize(2 * contacts.size());
+  for (int k = 0; k < contacts.size(); k++) {
+    const int i = contacts.source[k];
+    const auto &surface = surfaces[surface_of[k]];
+    if (surface.distance(atom->x[i]) <= 0.0)
+      error->one(FLERR, Error::NOLASTLINE,
+                 "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
+                 command, id, atom->tag[i]);
+    std::copy(atom->x[i], atom->x[i] + 3, &rows.x[6 * k]);
+    std::copy(&velocities.v[3 * i], &velocities.v[3 * i] + 3, &rows.v[6 * k]);
+    std::copy(&velocities.omega[3 * i], &velocities.omega[3 * i] + 3, &rows.omega[6 * k]);
+    surface.foot(atom->x[i], &rows.x[6 * k + 3]);
+  }
+}
+
+void FixWallLevelset::scatter(int vflag)
+{
+  std::fill(loads, loads + 6, 0.0);
+  loads_summed = false;
+  for (int k = 0; k < contacts.size(); k++) {
+    const int i = contacts.source[k];
+    const double *f = &rows.f[6 * k], *on_wall = f + 3, *moment = &rows.torque[6 * k + 3];
+    const double *foot = &rows.x[6 * k + 3];
+    for (int c = 0; c < 3; c++) {
+      atom->f[i][c] += f[c];
+      atom->torque[i][c] += rows.torque[6 * k + c];
+      const int a = (c + 1) % 3, b = (c + 2) % 3;
+      loads[c] += on_wall[c];
+      loads[3 + c] += foot[a] * on_wall[b] - foot[b] * on_wall[a] + moment[c];
+    }
+    if (evflag) {
+      const double *x = atom->x[i];
+      const double d[3] = {x[0] - foot[0], x[1] - foot[1], x[2] - foot[2]};
+      double virial_of_contact[6] = {d[0] * f[0], d[1] * f[1], d[2] * f[2],
+                                     d[0] * f[1], d[0] * f[2], d[1] * f[2]};
+      int one = i;
+      v_tally(1, &one, 1.0, virial_of_contact);
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   contacts through a rebuild of the neighbour list: partner = number of the surface
+------------------------------------------------------------------------- */
+
+void FixWallLevelset::store_contacts()
+{
+  store.clear_range(0, atom->nlocal);
+  for (int k = 0; k < contacts.size(); k++)
+    store.add(contacts.source[k], surface_of[k], contacts.history_of(k));
+}
+
+void FixWallLevelset::post_neighbor()
+{
+  rebuild = true;
+}
+
+void FixWallLevelset::find_again()
+{
+  rebuild = false;
+  contacts.clear();
+  surface_of.clear();
+  std::fill(touched.begin(), touched.end(), 0u);
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
+      if (const auto *history = store.find(i, s)) close(i, s, *history);
+}
+
+/* ----------------------------------------------------------------------
+   [0] elastic and adhesive energy of all wall contacts
+------------------------------------------------------------------------- */
+
+double FixWallLevelset::compute_scalar()
+{
+  double energy = 0.0;
+  if (contacts.size() > 0) {
+    std::vector<apf::ContactParts> parts(contacts.size());
+    std::vector<double> unused(rows.f.size()), unused_torque(rows.f.size());
+    kernel(contacts, {rows.x.data(), rows.v.data(), rows.omega.data(), unused.data(),
+                      unused_torque.data()}, 0.0, parts.data());
+    for (const auto &p : parts)
+      energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
+  }
+  double all;
+  MPI_Allreduce(&energy, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+// force 3, torque about the origin 3, contacts, contacts begun, contacts ended
+double FixWallLevelset::compute_vector(int n)
+{
+  if (!loads_summed) {
+    double mine[9];
+    std::copy(loads, loads + 6, mine);
+    mine[6] = contacts.size();
+    mine[7] = captured;
+    mine[8] = detached;
+    MPI_Allreduce(mine, all_loads, 9, MPI_DOUBLE, MPI_SUM, world);
+    loads_summed = true;
+  }
+  return all_loads[n];
+}
+
+std::vector<double> FixWallLevelset::global_state() const
+{
+  double mine[2] = {captured, detached}, all[2];
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  return {all[0], all[1]};
+}
+
+void FixWallLevelset::set_global_state(const double *state)
+{
+  if (comm->me == 0) {    // counts are sums over ranks
+    captured = state[0];
+    detached = state[1];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   "wall_contacts": int[nlocal], closed contacts of each atom with this wall
+------------------------------------------------------------------------- */
+
+void *FixWallLevelset::extract(const char *name, int &dim)
+{
+  dim = 1;
+  if (strcmp(name, "wall_contacts") != 0) return nullptr;
+  count_of_atom.assign(atom->nmax, 0);
+  for (int i : contacts.source) count_of_atom[i]++;
+  return count_of_atom.data();
+}
+
+/* ----------------------------------------------------------------------
+   what dump image draws: a line in the plane, triangles in space
+------------------------------------------------------------------------- */
+
+int FixWallLevelset::image(int *&objects, double **&values)
+{
+  image_objects.clear();
+  image_values.clear();
+  image_rows.clear();
+  for (const auto &surface : surfaces) add_image(surface);
+  for (auto &row : image_values) image_rows.push_back(row.data());
+  objects = image_objects.data();
+  values = image_rows.data();
+  return static_cast<int>(image_objects.size());
+}
+
+void FixWallLevelset::add_image(const apf::Surface &surface)
+{
+  constexpr int LINE = 1, TRI = 2;    // as dump image numbers them
+  const double *lo = domain->boxlo, *hi = domain->boxhi;
+  using Point = std::array<double, 3>;
+  auto add = [&](int object, const Point &a, const Point &b, const Point &c) {
+    image_objects.push_back(object);
+    image_values.push_back({1.0, a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]});
+  };
+  // a quadrilateral, or in the plane its edge from a to b
+  auto patch = [&](const Point &a, const Point &b, const Point &c, const Point &d) {
+    if (domain->dimension == 2) {
+      add(LINE, a, b, b);
+    } else {
+      add(TRI, a, b, c);
+      add(TRI, a, c, d);
+    }
+  };
+
+  const bool flat = domain->dimension == 2;
+  if (surface.shape == apf::Surface::Shape::plane) {
+    const int n = surface.dim, d1 = (n == 0) ? 1 : 0, d2 = (n == 2) ? 1 : 2;
+    auto corner = [&](bool far1, bool far2) {
+      Point p;
+      p[n] = surface.origin[0];
+      p[d1] = far1 ? hi[d1] : lo[d1];
+      p[d2] = flat ? 0.0 : (far2 ? hi[d2] : lo[d2]);
+      return p;
+    };
+    patch(corner(false, false), corner(true, false), corner(true, true), corner(false, true));
+    return;
+  }
+  constexpr int facets = 48;
+  const int n = surface.dim, d1 = (n == 0) ? 1 : 0, d2 = (n == 2) ? 1 : 2;
+  auto rim = [&](int k, bool far) {
+    const double angle = MathConst::MY_2PI * k / facets;
+    Point p;
+    p[n] = flat ? 0.0 : (far ? hi[n] : lo[n]);
+    p[d1] = surface.origin[0] + surface.radius * cos(angle);
+    p[d2] = surface.origin[1] + surface.radius * sin(angle);
+    return p;
+  };
+  for (int k = 0; k < facets; k++)
+    patch(rim(k, false), rim(k + 1, false), rim(k + 1, true), rim(k, true));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixWallLevelset::memory_usage()
+{
+  return FixContacts::memory_usage() + contacts.memory_usage() +
+      touched.capacity() * sizeof(unsigned) + 5 * rows.x.capacity() * sizeof(double);
+}

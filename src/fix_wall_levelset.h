@@ -1,0 +1,83 @@
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(wall/levelset,FixWallLevelset);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_WALL_LEVELSET_H
+#define LMP_FIX_WALL_LEVELSET_H
+
+#include "fix_contacts.h"
+
+#include "contact/contact_kernel.h"
+#include "contact_keywords.h"
+#include "wall/surface.h"
+
+#include <array>
+
+namespace LAMMPS_NS {
+
+class FixWallLevelset : public FixContacts {
+ public:
+  FixWallLevelset(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void min_setup(int) override;
+  void post_force(int) override;
+  void post_force_respa(int, int, int) override;
+  void min_post_force(int) override;
+  void post_neighbor() override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  void *extract(const char *, int &) override;
+  int image(int *&, double **&) override;
+  double memory_usage() override;
+
+ protected:
+  void store_contacts() override;
+  int level() const override;
+  std::vector<double> global_state() const override;
+  void set_global_state(const double *) override;
+
+ private:
+  std::vector<apf::Surface> surfaces;
+  ContactCoeff coefficient;
+  apf::KernelChoice choice;
+  apf::ContactKernel kernel;
+
+  // One contact = one particle at one surface. Rows 2k and 2k+1 of `rows` are the particle and its
+  // foot point on the wall, a body without radius.
+  apf::ContactList contacts;
+  std::vector<int> surface_of;          // surface of each contact; its atom is contacts.source
+  std::vector<unsigned> touched;        // per atom: bit s set if it is in contact with surface s
+  struct Rows {
+    std::vector<double> x, v, omega, f, torque;
+    void resize(int n);
+  } rows;
+
+  bool rebuild = true;
+  class Fix *rigid = nullptr;
+  double captured = 0.0, detached = 0.0;    // contacts begun and ended, of this rank
+  double loads[6] = {};                     // force and torque on the wall, of this rank
+  double all_loads[9] = {};                 // the same over all ranks, contacts, begun, ended
+  bool loads_summed = false;
+  std::vector<int> count_of_atom;           // for other styles: contacts of each atom
+  std::vector<int> image_objects;
+  std::vector<std::array<double, 10>> image_values;
+  std::vector<double *> image_rows;
+
+  void parse_surfaces(int, char **, int &);
+  void find_again();
+  void detect();
+  void close(int i, int surface, const apf::ContactHistory &);
+  void remove_ended();
+  void gather();
+  void scatter(int vflag);
+  void add_image(const apf::Surface &);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,523 @@
+#include "pair_granular_adhesive.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "contact_checks.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "fix_contact_history.h"
+#include "force.h"
+#include "group.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+static constexpr int n_parts = 11;       // values per pair that single() offers
+static constexpr int n_energies = 4;     // energies by part that compute pair offers
+
+/* ---------------------------------------------------------------------- */
+
+PairGranularAdhesive::PairGranularAdhesive(LAMMPS *lmp) : Pair(lmp)
+{
+  single_enable = 1;
+  single_extra = n_parts;
+  svector = new double[n_parts];
+  nextra = n_energies;
+  pvector = new double[n_energies];
+  restartinfo = 1;
+  writedata = 1;
+  finitecutflag = 1;
+  no_virial_fdotr_compute = 1;
+  centroidstressflag = CENTROID_NOTAVAIL;
+  comm_forward = 1;    // mass of rigid bodies
+
+  // The fix that keeps histories must stand before fixes that add, delete or move atoms, yet it can
+  // take them from a restart file only if it is made after the file is read: a placeholder keeps its
+  // place until init_style(). Numbered within this LAMMPS, so that a restarted run has the same ID.
+  int n = 0;
+  for (const auto &fix : modify->get_fix_list())
+    if (utils::strmatch(fix->id, "^CONTACT_HISTORY_")) n++;
+  id_store = fmt::format("CONTACT_HISTORY_{}", n);
+  modify->add_fix(id_store + "_PLACE all DUMMY");
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairGranularAdhesive::~PairGranularAdhesive()
+{
+  delete[] svector;
+  delete[] pvector;
+  modify->delete_fix(store ? id_store : id_store + "_PLACE");
+  if (allocated) {
+    memory->destroy(setflag);
+    memory->destroy(cutsq);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+  if (rebuild) {
+    find_rigid_masses();
+    build_candidates();
+  }
+  store->synchronize();
+  detect();
+
+  const bool tallied = evflag != 0;
+  if (tallied) parts.resize(contacts.size());
+  const double dt = update->setupflag ? 0.0 : store->step_of_level();
+  if (contacts.size() > 0)
+    kernel(contacts, bodies(&atom->f[0][0], &atom->torque[0][0]), dt,
+           tallied ? parts.data() : nullptr);
+
+  // a ghost's force belongs to another rank, which has computed it as well
+  if (!force->newton_pair && atom->nghost > 0) {
+    memset(atom->f[atom->nlocal], 0, 3 * sizeof(double) * atom->nghost);
+    memset(atom->torque[atom->nlocal], 0, 3 * sizeof(double) * atom->nghost);
+  }
+  if (tallied) tally(eflag);
+  remove_ended();
+  parts_step = -1;
+}
+
+/* ----------------------------------------------------------------------
+   candidates = pairs of a new neighbour list; closed contacts are found again by atom ID
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::build_candidates()
+{
+  const double *radius = atom->radius;
+  const tagint *tag = atom->tag;
+  auto &c = candidates;
+  c.i.clear();
+  c.j.clear();
+  c.touch2.clear();
+  c.closed.clear();
+  contacts.clear();
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const int *jlist = list->firstneigh[i];
+    for (int jj = 0; jj < list->numneigh[i]; jj++) {
+      if (force->special_lj[sbmask(jlist[jj])] == 0.0) continue;
+      const int j = jlist[jj] & NEIGHMASK;
+      const double sum = radius[i] + radius[j];
+      c.i.push_back(i);
+      c.j.push_back(j);
+      c.touch2.push_back(sum * sum);
+      c.closed.push_back(0);
+      const auto *history = store->find(i, tag[j]);
+      if (history) close(static_cast<int>(c.i.size()) - 1, *history);
+    }
+  }
+  rebuild = false;
+}
+
+/* ----------------------------------------------------------------------
+   pairs that touch now: contacts open with first touch and end with the neck
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::detect()
+{
+  const double *const *x = atom->x;
+  const auto &c = candidates;
+  const int n = static_cast<int>(c.i.size());
+  for (int k = 0; k < n; k++) {
+    const double *xi = x[c.i[k]], *xj = x[c.j[k]];
+    const double dx = xj[0] - xi[0], dy = xj[1] - xi[1], dz = xj[2] - xi[2];
+    if (dx * dx + dy * dy + dz * dz <= c.touch2[k] && !c.closed[k]) close(k, apf::ContactHistory());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
+{
+  const int i = candidates.i[k], j = candidates.j[k];
+  const auto &model = coefficients[atom->type[i]][atom->type[j]].model;
+  contacts.add(i, j, k, apf::ContactConstants::make(model, bodies_of(i, j)), history);
+  candidates.closed[k] = 1;
+}
+
+/* ----------------------------------------------------------------------
+   radii and effective inertia; frozen particles and rigid bodies count as LAMMPS counts them
+------------------------------------------------------------------------- */
+
+apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j) const
+{
+  const double ri = atom->radius[i], rj = atom->radius[j];
+  double mi = atom->rmass[i], mj = atom->rmass[j];
+  double inv_Ii = 2.5 / (mi * ri * ri), inv_Ij = 2.5 / (mj * rj * rj);
+  if (rigid) {
+    if (mass_rigid[i] > 0.0) mi = mass_rigid[i];
+    if (mass_rigid[j] > 0.0) mj = mass_rigid[j];
+  }
+  double inv_mi = 1.0 / mi, inv_mj = 1.0 / mj;
+  const bool frozen_i = atom->mask[i] & freeze_group_bit, frozen_j = atom->mask[j] & freeze_group_bit;
+  if (frozen_i && !frozen_j) inv_mi = inv_Ii = 0.0;
+  if (frozen_j && !frozen_i) inv_mj = inv_Ij = 0.0;
+  return apf::ContactBodies::pair(ri, rj, 1.0 / (inv_mi + inv_mj), 1.0 / (inv_Ii + inv_Ij));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::remove_ended()
+{
+  for (int k = contacts.size() - 1; k >= 0; k--)
+    if (contacts.ended(k)) {
+      candidates.closed[contacts.source[k]] = 0;
+      contacts.remove(k);
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+apf::Bodies PairGranularAdhesive::bodies(double *f, double *torque) const
+{
+  return {&atom->x[0][0], store->velocity(), store->omega(), f, torque};
+}
+
+/* ----------------------------------------------------------------------
+   energy, virial and stress of all contacts from their parts
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::tally(int eflag)
+{
+  for (int n = 0; n < n_energies; n++) pvector[n] = 0.0;
+  const double *const *x = atom->x;
+  for (int k = 0; k < contacts.size(); k++) {
+    const auto &p = parts[k];
+    const int i = contacts.i[k], j = contacts.j[k];
+    const double energies[n_energies] = {p.elastic_energy, p.sliding_energy, p.rolling_energy,
+                                         p.twisting_energy};
+    // with newton off both ranks of a pair count it, each half
+    const double share = (force->newton_pair || j < atom->nlocal) ? 1.0 : 0.5;
+    double energy = 0.0;
+    for (int n = 0; n < n_energies; n++) {
+      pvector[n] += share * energies[n];
+      energy += energies[n];
+    }
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, eflag ? energy : 0.0, 0.0, p.force[0],
+                 p.force[1], p.force[2], x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::settings(int narg, char **arg)
+{
+  if (narg > 0)
+    error->all(FLERR, 1, "Pair style granular/adhesive takes no arguments, got {}", arg[0]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::allocate()
+{
+  allocated = 1;
+  const int n = atom->ntypes + 1;
+  memory->create(setflag, n, n, "pair:setflag");
+  memory->create(cutsq, n, n, "pair:cutsq");
+  for (int i = 1; i < n; i++)
+    for (int j = i; j < n; j++) setflag[i][j] = 0;
+  coefficients.assign(n, std::vector<ContactCoeff>(n));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::coeff(int narg, char **arg)
+{
+  if (narg < 3) utils::missing_cmd_args(FLERR, "pair_coeff granular/adhesive", error);
+  if (!allocated) allocate();
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+  int iarg = 2;
+  const auto coeff = parse_contact(lmp, "Pair granular/adhesive", narg, arg, iarg, 1);
+  if (iarg < narg)
+    error->all(FLERR, iarg + 1, "Pair granular/adhesive keyword {} is unknown; known are damping, "
+               "sliding, twisting, rolling, break, scale_stiffness", arg[iarg]);
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = MAX(jlo, i); j <= jhi; j++) {
+      coefficients[i][j] = coefficients[j][i] = coeff;
+      setflag[i][j] = 1;
+      count++;
+    }
+  if (count == 0)
+    error->all(FLERR, 1, "Pair_coeff types {} {} name no pair with I <= J", arg[0], arg[1]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::init_style()
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs atom style sphere: radius, mass, omega and torque "
+               "per atom; atom style {} has not all of them", atom->get_style());
+  if (atom->tag_enable == 0)
+    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs atom IDs: remove atom_modify id no");
+  if (comm->ghost_velocity == 0)
+    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs velocities of ghost atoms: add comm_modify vel yes");
+  for (int n = 1; n < 4; n++)
+    if (force->special_lj[n] != 0.0 && force->special_lj[n] != 1.0)
+      error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive takes special_bonds lj factors 0 or 1, got {}",
+                 force->special_lj[n]);
+
+  neighbor->add_request(this, NeighConst::REQ_SIZE);
+
+  const auto freezes = modify->get_fix_by_style("^freeze");
+  if (freezes.size() > 1)
+    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive allows one fix freeze, got {}", freezes.size());
+  freeze_group_bit = freezes.empty() ? 0 : freezes[0]->groupbit;
+
+  rigid = nullptr;
+  for (const auto &fix : modify->get_fix_list())
+    if (fix->rigid_flag) {
+      if (rigid)
+        error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive allows one fix rigid, got {} and {}", rigid->id,
+                   fix->id);
+      rigid = fix;
+    }
+
+  if (!store) {
+    store = dynamic_cast<FixContactHistory *>(
+        modify->replace_fix(id_store + "_PLACE", id_store + " all contact/history", 1));
+    store->serve(this);
+  }
+  find_radii();
+  neck_max = 0.0;    // init_one finds it
+  choice = apf::KernelChoice();
+  choice.planar = domain->dimension == 2;
+}
+
+/* ----------------------------------------------------------------------
+   smallest and largest radius of each type, those of particles to come included
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::find_radii()
+{
+  const int n = atom->ntypes + 1;
+  std::vector<double> largest(n, 0.0), inverse_smallest(n, 0.0);
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double r = atom->radius[i];
+    const int t = atom->type[i];
+    if (r <= 0.0)
+      error->one(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs radii > 0, atom {} has {}", atom->tag[i], r);
+    largest[t] = MAX(largest[t], r);
+    inverse_smallest[t] = MAX(inverse_smallest[t], 1.0 / r);
+  }
+  radius_max.assign(n, 0.0);
+  radius_min.assign(n, 0.0);
+  MPI_Allreduce(largest.data(), radius_max.data(), n, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(inverse_smallest.data(), radius_min.data(), n, MPI_DOUBLE, MPI_MAX, world);
+
+  for (const auto &fix : modify->get_fix_list())
+    for (int t = 1; t < n; t++) {
+      int type = t;
+      const auto *inserted = static_cast<double *>(fix->extract("radius", type));
+      if (inserted) radius_max[t] = MAX(radius_max[t], *inserted);
+    }
+  for (int t = 1; t < n; t++)
+    radius_min[t] = radius_min[t] > 0.0 ? 1.0 / radius_min[t] : radius_max[t];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairGranularAdhesive::init_one(int i, int j)
+{
+  if (setflag[i][j] == 0)
+    coefficients[i][j] = coefficients[j][i] =
+        ContactCoeff::mixed(coefficients[i][i], coefficients[j][j]);
+  const auto &model = coefficients[i][j].model;
+  choice.include(model);
+  kernel = apf::contact_kernel(choice);
+
+  // a type without particles so far gets the cut-off of the largest one
+  const double any = *std::max_element(radius_max.begin(), radius_max.end());
+  const double ri = radius_max[i] > 0.0 ? radius_max[i] : any;
+  const double rj = radius_max[j] > 0.0 ? radius_max[j] : any;
+  if (any == 0.0) return 0.0;
+  const double neck = model.normal(ri * rj / (ri + rj)).pulloff_overlap();
+  neck_max = MAX(neck_max, neck);
+  if (radius_max[i] > 0.0 && radius_max[j] > 0.0) {
+    const double si = radius_min[i], sj = radius_min[j];
+    check_overlap(lmp, fmt::format("Pair granular/adhesive types {} {}", i, j), model,
+                  si * sj / (si + sj), MIN(si, sj));
+  }
+  return ri + rj + neck;
+}
+
+/* ----------------------------------------------------------------------
+   the stiffest mode of any pair of types against the step of this level
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::setup()
+{
+  const int n = atom->ntypes + 1;
+  std::vector<double> inverse(n, 0.0), inv_mass(n, 0.0);    // of the lightest particle of each type
+  for (int i = 0; i < atom->nlocal; i++)
+    inverse[atom->type[i]] = MAX(inverse[atom->type[i]], 1.0 / atom->rmass[i]);
+  MPI_Allreduce(inverse.data(), inv_mass.data(), n, MPI_DOUBLE, MPI_MAX, world);
+
+  apf::StiffestMode worst;
+  for (int i = 1; i < n; i++)
+    for (int j = i; j < n; j++) {
+      if (inv_mass[i] == 0.0 || inv_mass[j] == 0.0) continue;
+      const double ri = radius_min[i], rj = radius_min[j];
+      const double inv_I = 2.5 * (inv_mass[i] / (ri * ri) + inv_mass[j] / (rj * rj));
+      const auto bodies =
+          apf::ContactBodies::pair(ri, rj, 1.0 / (inv_mass[i] + inv_mass[j]), 1.0 / inv_I);
+      worst = std::max(worst, apf::stiffest_mode(coefficients[i][j].model, bodies));
+    }
+  check_timestep(lmp, "Pair granular/adhesive", worst, store->step_of_level());
+}
+
+/* ----------------------------------------------------------------------
+   masses of rigid bodies, for the effective mass of a contact
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::find_rigid_masses()
+{
+  if (!rigid) return;
+  int dim;
+  const auto *body = static_cast<int *>(rigid->extract("body", dim));
+  const auto *mass = static_cast<double *>(rigid->extract("masstotal", dim));
+  mass_rigid.assign(atom->nmax, 0.0);
+  if (!body || !mass) return;    // rigid/small: its particles count by themselves
+  for (int i = 0; i < atom->nlocal; i++)
+    if (body[i] >= 0) mass_rigid[i] = mass[body[i]];
+  comm->forward_comm(this);
+}
+
+int PairGranularAdhesive::pack_forward_comm(int n, int *sent, double *buf, int /*pbc_flag*/,
+                                            int * /*pbc*/)
+{
+  for (int k = 0; k < n; k++) buf[k] = mass_rigid[sent[k]];
+  return n;
+}
+
+void PairGranularAdhesive::unpack_forward_comm(int n, int first, double *buf)
+{
+  for (int k = 0; k < n; k++) mass_rigid[first + k] = buf[k];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::write_restart(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      fwrite(&setflag[i][j], sizeof(int), 1, fp);
+      if (setflag[i][j]) fwrite(&coefficients[i][j], sizeof(ContactCoeff), 1, fp);
+    }
+}
+
+void PairGranularAdhesive::read_restart(FILE *fp)
+{
+  if (!allocated) allocate();
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      auto &coeff = coefficients[i][j];
+      if (comm->me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
+      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      if (!setflag[i][j]) continue;
+      if (comm->me == 0) utils::sfread(FLERR, &coeff, sizeof(coeff), 1, fp, nullptr, error);
+      MPI_Bcast(&coeff, sizeof(coeff), MPI_BYTE, 0, world);
+      coefficients[j][i] = coeff;
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    utils::print(fp, "{} {}\n", i, coefficients[i][i].words());
+}
+
+// A line can name one material only. Mixed pairs come back by mixing again; where the script named
+// a pair of unlike types, that line is written.
+void PairGranularAdhesive::write_data_all(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      if (setflag[i][j]) utils::print(fp, "{} {} {}\n", i, j, coefficients[i][j].words());
+}
+
+/* ----------------------------------------------------------------------
+   parts of all contacts as they are now
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::evaluate_parts()
+{
+  if (parts_step == update->ntimestep) return;
+  parts_step = update->ntimestep;
+  parts.resize(contacts.size());
+  index_of_pair.clear();
+  if (contacts.size() == 0) return;
+  std::vector<double> unused(6 * static_cast<size_t>(atom->nmax));
+  kernel(contacts, bodies(unused.data(), unused.data() + 3 * static_cast<size_t>(atom->nmax)), 0.0,
+         parts.data());
+  for (int k = 0; k < contacts.size(); k++)
+    index_of_pair[(static_cast<uint64_t>(contacts.i[k]) << 32) | static_cast<uint32_t>(contacts.j[k])] = k;
+}
+
+double PairGranularAdhesive::single(int i, int j, int, int, double rsq, double, double, double &fforce)
+{
+  evaluate_parts();
+  fforce = 0.0;
+  std::fill(svector, svector + n_parts, 0.0);
+  auto key = [](int a, int b) { return (static_cast<uint64_t>(a) << 32) | static_cast<uint32_t>(b); };
+  auto found = index_of_pair.find(key(i, j));
+  double sign = 1.0;    // of tangential parts: they are those on the first atom
+  if (found == index_of_pair.end()) {
+    found = index_of_pair.find(key(j, i));
+    sign = -1.0;
+  }
+  if (found == index_of_pair.end()) return 0.0;
+
+  const auto &p = parts[found->second];
+  fforce = (p.elastic + p.damping) / sqrt(rsq);
+  double *out = svector;
+  *out++ = p.overlap;
+  *out++ = p.contact_radius;
+  *out++ = p.elastic;
+  *out++ = p.damping;
+  for (double component : p.sliding) *out++ = sign * component;
+  for (double component : p.rolling) *out++ = sign * component;
+  *out++ = p.twisting;
+  return p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void *PairGranularAdhesive::extract(const char *name, int &dim)
+{
+  dim = 0;
+  if (strcmp(name, "contact_list") == 0) return &contacts;
+  return nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairGranularAdhesive::memory_usage()
+{
+  const double per_candidate = 2 * sizeof(int) + sizeof(double) + sizeof(char);
+  return Pair::memory_usage() + contacts.memory_usage() + candidates.i.capacity() * per_candidate +
+      parts.capacity() * sizeof(apf::ContactParts);
+}
