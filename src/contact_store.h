@@ -15,6 +15,8 @@ namespace LAMMPS_NS {
 
 class ContactStore {
  public:
+  static constexpr int record_size = 1 + apf::ContactHistory::size;    // doubles
+
   void grow(int n)
   {
     if (n > static_cast<int>(records.size())) records.resize(n);
@@ -41,8 +43,10 @@ class ContactStore {
 
   void copy(int from, int to) { records[to] = records[from]; }
 
+  int count(int i) const { return static_cast<int>(records[i].size()); }
+
   // number of doubles that pack writes
-  int size(int i) const { return 1 + width * static_cast<int>(records[i].size()); }
+  int size(int i) const { return 1 + record_size * count(i); }
   int max_size(int n) const
   {
     int largest = 1;
@@ -52,30 +56,34 @@ class ContactStore {
 
   int pack(int i, double *buf) const
   {
-    int m = 0;
-    buf[m++] = static_cast<double>(records[i].size());
-    for (const auto &record : records[i]) {
-      buf[m++] = ubuf(record.partner).d;
-      const auto *value = reinterpret_cast<const double *>(&record.history);
-      m = static_cast<int>(std::copy(value, value + apf::ContactHistory::size, buf + m) - buf);
-    }
-    return m;
+    const int n = count(i);
+    buf[0] = n;
+    for (int k = 0; k < n; k++) pack_record(i, k, buf + 1 + k * record_size);
+    return size(i);
   }
 
-  // appends to what atom i has
+  // appends to what atom i has; returns the number of doubles read
   int unpack(int i, const double *buf)
   {
-    int m = 0;
-    const int n = static_cast<int>(buf[m++]);
-    for (int k = 0; k < n; k++) {
-      Record record;
-      record.partner = static_cast<tagint>(ubuf(buf[m++]).i);
-      std::copy(buf + m, buf + m + apf::ContactHistory::size,
-                reinterpret_cast<double *>(&record.history));
-      m += apf::ContactHistory::size;
-      records[i].push_back(record);
-    }
-    return m;
+    const int n = static_cast<int>(buf[0]);
+    for (int k = 0; k < n; k++) unpack_record(i, buf + 1 + k * record_size);
+    return 1 + n * record_size;
+  }
+
+  void pack_record(int i, int k, double *buf) const
+  {
+    const auto &record = records[i][k];
+    const auto *value = reinterpret_cast<const double *>(&record.history);
+    buf[0] = ubuf(record.partner).d;
+    std::copy(value, value + apf::ContactHistory::size, buf + 1);
+  }
+
+  void unpack_record(int i, const double *buf)
+  {
+    Record record;
+    record.partner = static_cast<tagint>(ubuf(buf[0]).i);
+    std::copy(buf + 1, buf + record_size, reinterpret_cast<double *>(&record.history));
+    records[i].push_back(record);
   }
 
   // [bytes]
@@ -91,7 +99,6 @@ class ContactStore {
     tagint partner;
     apf::ContactHistory history;
   };
-  static constexpr int width = 1 + apf::ContactHistory::size;
   std::vector<std::vector<Record>> records;    // one list per atom
 };
 

@@ -19,6 +19,7 @@ FixContactHistory::FixContactHistory(LAMMPS *lmp, int narg, char **arg) : FixCon
 {
   if (narg != 3) error->all(FLERR, 3, "Fix contact/history takes no arguments, got {}", arg[3]);
   comm_forward = 6;
+  comm_reverse = 1 + ContactStore::record_size;
 }
 
 int FixContactHistory::setmask()
@@ -52,7 +53,7 @@ int FixContactHistory::level() const
 
 void FixContactHistory::synchronize()
 {
-  start_or_predict();
+  FixContacts::synchronize();
   comm->forward_comm(this);
 }
 
@@ -116,22 +117,41 @@ void FixContactHistory::store_contacts()
     store.add(i, tag[j], history);
     if (j < nlocal || force->newton_pair) store.add(j, tag[i], history.swapped(pair->planar()));
   }
-  if (!force->newton_pair) return;
-  int size = 1;    // longest message per ghost; those sent may be shorter
-  for (int i = nlocal; i < nlocal + atom->nghost; i++) size = MAX(size, store.size(i));
-  MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_INT, MPI_MAX, world);
-  if (size > 1) comm->reverse_comm(this, size);
+  if (force->newton_pair) send_to_owners();
+}
+
+/* ----------------------------------------------------------------------
+   what ghosts hold goes to their owners, a contact a ghost and round: messages of fixed size, which
+   tiled decompositions need; a ghost that passes on another rank's contacts has more rounds to go
+------------------------------------------------------------------------- */
+
+void FixContactHistory::send_to_owners()
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  sent.assign(nall, 0);
+  while (true) {
+    int left = 0;
+    for (int i = nlocal; i < nall; i++) left = MAX(left, store.count(i) - sent[i]);
+    MPI_Allreduce(MPI_IN_PLACE, &left, 1, MPI_INT, MPI_MAX, world);
+    if (left == 0) return;
+    comm->reverse_comm(this);
+  }
 }
 
 int FixContactHistory::pack_reverse_comm(int n, int first, double *buf)
 {
   int m = 0;
-  for (int i = first; i < first + n; i++) m += store.pack(i, buf + m);
+  for (int i = first; i < first + n; i++) {
+    const bool some = sent[i] < store.count(i);
+    buf[m] = some;
+    if (some) store.pack_record(i, sent[i]++, buf + m + 1);
+    m += comm_reverse;
+  }
   return m;
 }
 
 void FixContactHistory::unpack_reverse_comm(int n, int *list, double *buf)
 {
-  int m = 0;
-  for (int k = 0; k < n; k++) m += store.unpack(list[k], buf + m);
+  for (int k = 0; k < n; k++)
+    if (buf[k * comm_reverse] > 0.0) store.unpack_record(list[k], buf + k * comm_reverse + 1);
 }

@@ -39,15 +39,18 @@ class FixContactHistory : public FixContacts {
   void synchronize();
   const double *velocity() const { return velocities.v.data(); }
   const double *omega() const { return velocities.omega.data(); }
+  int level() const override;
   using FixContacts::step_of_level;
 
  protected:
   void store_contacts() override;
-  int level() const override;
 
  private:
   class PairGranularAdhesive *pair = nullptr;
   double radius_growth = 0.0;
+  std::vector<int> sent;    // records that each ghost has sent to its owner
+
+  void send_to_owners();
 };
 
 }    // namespace LAMMPS_NS

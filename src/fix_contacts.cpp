@@ -30,31 +30,25 @@ FixContacts::~FixContacts()
 
 int FixContacts::setmask()
 {
-  return POST_INTEGRATE | POST_INTEGRATE_RESPA | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR |
-      MIN_POST_NEIGHBOR | POST_RUN;
+  return POST_INTEGRATE_RESPA | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR |
+      POST_RUN;
 }
 
-/* ----------------------------------------------------------------------
-   positions are new, velocities half a step behind
-------------------------------------------------------------------------- */
-
-void FixContacts::post_integrate()
-{
-  velocities.advance(atom, false);
-}
+/* ---------------------------------------------------------------------- */
 
 void FixContacts::post_integrate_respa(int ilevel, int iloop)
 {
+  if (ilevel != level()) return;
   const auto *respa = dynamic_cast<Respa *>(update->integrate);
-  if (ilevel == level()) velocities.advance(atom, iloop == 0 && ilevel < respa->nlevels - 1);
+  outer_kick = iloop == 0 && ilevel < respa->nlevels - 1;
 }
 
-void FixContacts::start_or_predict()
+void FixContacts::synchronize()
 {
   if (update->setupflag)
     velocities.start(atom);
   else
-    velocities.predict(atom);
+    velocities.predict(atom, outer_kick);
 }
 
 double FixContacts::step_of_level() const

@@ -18,7 +18,6 @@ class FixContacts : public Fix {
   FixContacts(class LAMMPS *, int, char **);
   ~FixContacts() override;
   int setmask() override;
-  void post_integrate() override;
   void post_integrate_respa(int, int) override;
   void pre_exchange() override;
   void min_pre_exchange() override { pre_exchange(); }
@@ -42,6 +41,7 @@ class FixContacts : public Fix {
  protected:
   ContactStore store;
   SynchronousVelocity velocities;
+  bool outer_kick = false;    // an outer level of r-RESPA has kicked since the last forces
 
   virtual void store_contacts() = 0;
   virtual int level() const = 0;    // of r-RESPA, on which the contacts act
@@ -50,7 +50,7 @@ class FixContacts : public Fix {
   virtual std::vector<double> global_state() const { return {}; }
   virtual void set_global_state(const double *) {}
 
-  void start_or_predict();        // velocities of local atoms at the time of the positions
+  void synchronize();             // velocities of local atoms at the time of the positions
   double step_of_level() const;   // time between two force computations
 };
 

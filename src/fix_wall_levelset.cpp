@@ -5,6 +5,7 @@
 #include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_contact_history.h"
 #include "force.h"
 #include "math_const.h"
 #include "modify.h"
@@ -127,6 +128,14 @@ void FixWallLevelset::init()
       error->all(FLERR, Error::NOLASTLINE, "{} respa level must be in [1, {}], got {}", command,
                  respa->nlevels, respa_level);
 
+  // the pair style computes first and on the same level: its velocities serve here too
+  lender = nullptr;
+  for (const auto &fix : modify->get_fix_by_style("^contact/history")) {
+    const auto *history = dynamic_cast<FixContactHistory *>(fix);
+    if (!utils::strmatch(update->integrate_style, "^respa") || history->level() == level())
+      lender = history;
+  }
+
   // the smallest and lightest particle decides about overlap and time step
   double inverse[2] = {0.0, 0.0}, smallest[2];
   for (int i = 0; i < atom->nlocal; i++)
@@ -188,7 +197,7 @@ void FixWallLevelset::post_force(int vflag)
   v_init(vflag);
   touched.resize(atom->nmax, 0);
   if (rebuild) find_again();
-  start_or_predict();
+  if (!lender) synchronize();
   detect();
   gather();
   const double dt = update->setupflag ? 0.0 : step_of_level();
@@ -269,6 +278,8 @@ void FixWallLevelset::Rows::resize(int n)
 void FixWallLevelset::gather()
 {
   rows.resize(2 * contacts.size());
+  const double *v = lender ? lender->velocity() : velocities.v.data();
+  const double *omega = lender ? lender->omega() : velocities.omega.data();
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.source[k];
     const auto &surface = surfaces[surface_of[k]];
@@ -277,8 +288,8 @@ void FixWallLevelset::gather()
                  "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
                  command, id, atom->tag[i]);
     std::copy(atom->x[i], atom->x[i] + 3, &rows.x[6 * k]);
-    std::copy(&velocities.v[3 * i], &velocities.v[3 * i] + 3, &rows.v[6 * k]);
-    std::copy(&velocities.omega[3 * i], &velocities.omega[3 * i] + 3, &rows.omega[6 * k]);
+    std::copy(v + 3 * i, v + 3 * i + 3, &rows.v[6 * k]);
+    std::copy(omega + 3 * i, omega + 3 * i + 3, &rows.omega[6 * k]);
     surface.foot(atom->x[i], &rows.x[6 * k + 3]);
   }
 }

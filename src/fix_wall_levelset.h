@@ -57,6 +57,7 @@ class FixWallLevelset : public FixContacts {
   } rows;
 
   bool rebuild = true;
+  const class FixContactHistory *lender = nullptr;    // has the velocities already: pair's fix
   class Fix *rigid = nullptr;
   double captured = 0.0, detached = 0.0;    // contacts begun and ended, of this rank
   double loads[6] = {};                     // force and torque on the wall, of this rank

@@ -14,6 +14,7 @@
 #include "atom.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -26,8 +27,11 @@ class SynchronousVelocity {
 
   void grow(int nmax)
   {
-    if (static_cast<int>(state.size()) >= nmax) return;
-    state.resize(nmax);
+    if (static_cast<int>(last.size()) >= nmax) return;
+    last.resize(nmax);
+    kick.resize(nmax);
+    used.resize(nmax);
+    end.resize(nmax);
     v.resize(3 * static_cast<size_t>(nmax));
     omega.resize(3 * static_cast<size_t>(nmax));
   }
@@ -36,98 +40,88 @@ class SynchronousVelocity {
   void start(const Atom *atom)
   {
     for (int i = 0; i < atom->nlocal; i++) {
-      State &s = state[i];
-      double now[6];
-      read(atom, i, now);
-      const bool goes_on = std::equal(now, now + 6, s.end);
-      std::fill(s.kick, s.kick + 6, 0.0);
-      std::copy(now, now + 6, s.last);
-      set(i, goes_on ? s.used : now);
+      last[i] = read(atom, i);
+      kick[i] = {};
+      set(i, last[i] == end[i] ? used[i] : last[i]);
     }
     first_step = true;
   }
 
-  // After the first half of a step: velocities at t + dt/2. Where an outer level of r-RESPA has
-  // just kicked, the change since the last inner step is no acceleration: the former one is kept.
-  void advance(const Atom *atom, bool outer_kick)
+  // Before every other force computation. Where an outer level of r-RESPA has just kicked, the change
+  // since the last inner step is no acceleration: the one before is kept.
+  void predict(const Atom *atom, bool outer_kick)
   {
     const double share = first_step ? 1.0 : 0.5;
     for (int i = 0; i < atom->nlocal; i++) {
-      State &s = state[i];
-      double now[6];
-      read(atom, i, now);
+      const Six now = read(atom, i);
+      Six at_x;
       for (int c = 0; c < 6; c++) {
-        if (!outer_kick) s.kick[c] = share * (now[c] - s.last[c]);
-        s.last[c] = now[c];
+        const double change = share * (now[c] - last[i][c]);
+        kick[i][c] = outer_kick ? kick[i][c] : change;
+        at_x[c] = now[c] + kick[i][c];
       }
+      last[i] = now;
+      set(i, at_x);
     }
     first_step = false;
-  }
-
-  // Before the forces: v and omega of local atoms.
-  void predict(const Atom *atom)
-  {
-    for (int i = 0; i < atom->nlocal; i++) {
-      double now[6];
-      read(atom, i, now);
-      for (int c = 0; c < 6; c++) now[c] += state[i].kick[c];
-      set(i, now);
-    }
   }
 
   // At the end of a run and before a restart file.
   void remember(const Atom *atom)
   {
     for (int i = 0; i < atom->nlocal; i++) {
-      State &s = state[i];
-      read(atom, i, s.end);
-      std::copy(&v[3 * i], &v[3 * i] + 3, s.used);
-      std::copy(&omega[3 * i], &omega[3 * i] + 3, s.used + 3);
+      end[i] = read(atom, i);
+      std::copy(&v[3 * i], &v[3 * i] + 3, used[i].begin());
+      std::copy(&omega[3 * i], &omega[3 * i] + 3, used[i].begin() + 3);
     }
   }
 
   void insert(const Atom *atom, int i)
   {
-    state[i] = State{};
-    read(atom, i, state[i].last);
+    last[i] = read(atom, i);
+    kick[i] = used[i] = end[i] = {};
   }
+
   void copy(int from, int to)
   {
-    state[to] = state[from];
+    for (auto *array : {&last, &kick, &used, &end}) (*array)[to] = (*array)[from];
     std::copy(&v[3 * from], &v[3 * from] + 3, &v[3 * to]);
     std::copy(&omega[3 * from], &omega[3 * from] + 3, &omega[3 * to]);
   }
+
   int pack(int i, double *buf) const
   {
-    const auto *from = reinterpret_cast<const double *>(&state[i]);
-    std::copy(from, from + size, buf);
+    for (const auto *array : {&last, &kick, &used, &end})
+      buf = std::copy((*array)[i].begin(), (*array)[i].end(), buf);
     return size;
   }
+
   int unpack(int i, const double *buf)
   {
-    std::copy(buf, buf + size, reinterpret_cast<double *>(&state[i]));
+    for (auto *array : {&last, &kick, &used, &end}) {
+      std::copy(buf, buf + 6, (*array)[i].begin());
+      buf += 6;
+    }
     return size;
   }
 
  private:
-  struct State {
-    double last[6] = {};    // velocity and angular velocity half a step before
-    double kick[6] = {};    // what half a step adds to them
-    double used[6] = {};    // those of the last force computation of a run
-    double end[6] = {};     // those at the end of that run
-  };
-  std::vector<State> state;
+  using Six = std::array<double, 6>;    // velocity and angular velocity
+  std::vector<Six> last;                // half a step before the last positions
+  std::vector<Six> kick;                // what half a step adds to them
+  std::vector<Six> used;                // those of the last force computation of a run
+  std::vector<Six> end;                 // those at the end of that run
   bool first_step = true;
 
-  static void read(const Atom *atom, int i, double *to)
+  static Six read(const Atom *atom, int i)
   {
-    std::copy(atom->v[i], atom->v[i] + 3, to);
-    std::copy(atom->omega[i], atom->omega[i] + 3, to + 3);
+    const double *u = atom->v[i], *w = atom->omega[i];
+    return {u[0], u[1], u[2], w[0], w[1], w[2]};
   }
-  void set(int i, const double *from)
+  void set(int i, const Six &six)
   {
-    std::copy(from, from + 3, &v[3 * i]);
-    std::copy(from + 3, from + 6, &omega[3 * i]);
+    std::copy(six.begin(), six.begin() + 3, &v[3 * i]);
+    std::copy(six.begin() + 3, six.end(), &omega[3 * i]);
   }
 };
 

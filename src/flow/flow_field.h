@@ -1,6 +1,6 @@
 // The fluid's velocity and vorticity as functions of position, one of several kinds. A kind is a
-// struct with velocity(x) and vorticity(x), x the three coordinates; loops over particles choose the
-// kind once (std::visit) and call it without any further branch. A new kind is added to this list.
+// struct with velocity(x) and vorticity(x), x the three coordinates; loops over particles choose
+// the kind once (std::visit) and call it without any further branch. A new kind is added here.
 
 #ifndef APF_FLOW_FIELD_H
 #define APF_FLOW_FIELD_H

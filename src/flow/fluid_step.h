@@ -1,6 +1,6 @@
 // Mean drag and torque of the fluid on a sphere over one time step (relaxation.h), for any drag law
-// F = 3 pi mu d f(Re) (u - v), with the other forces on the sphere given and constant over the step.
-// A law that is not linear takes its factor f at the slip in mid-step, which makes it second order.
+// F = 3 pi mu d f(Re) (u - v). The other forces on the sphere are given and constant over the step.
+// A law that is not linear takes its factor f at the slip in mid-step: that makes it second order.
 
 #ifndef APF_FLUID_STEP_H
 #define APF_FLUID_STEP_H
@@ -36,12 +36,15 @@ template <class Law> class FluidStep {
   // slip: v - u, other: sum of all other forces
   Vec3 drag(const Vec3 &slip, const Vec3 &other) const
   {
-    if constexpr (Law::linear) return mean_resistance(k, phi, slip, other);
-    const double k_start = k * factor(slip);
-    const double phi_half = mean_decay(0.5 * h * k_start / m);
-    const Vec3 middle = slip + (0.5 * h * phi_half / m) * (other - k_start * slip);
-    const double k_mid = k * factor(middle);
-    return mean_resistance(k_mid, mean_decay(h * k_mid / m), slip, other);
+    if constexpr (Law::linear) {
+      return mean_resistance(k, phi, slip, other);
+    } else {
+      const double k_start = k * factor(slip);
+      const double phi_half = mean_decay(0.5 * h * k_start / m);
+      const Vec3 middle = slip + (0.5 * h * phi_half / m) * (other - k_start * slip);
+      const double k_mid = k * factor(middle);
+      return mean_resistance(k_mid, mean_decay(h * k_mid / m), slip, other);
+    }
   }
 
   // slip: Om - om/2, other: sum of all other torques

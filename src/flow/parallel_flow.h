@@ -1,4 +1,4 @@
-// Flows along one coordinate axis e_f: velocity w(x) e_f, vorticity curl(w e_f) = grad w x e_f.
+// Flows along one coordinate axis e_f: a velocity w(x) e_f has the vorticity grad w x e_f.
 
 #ifndef APF_PARALLEL_FLOW_H
 #define APF_PARALLEL_FLOW_H

@@ -1,4 +1,5 @@
-// Drag of a sphere at Reynolds numbers up to about 800, f = 1 + 0.15 Re^0.687, F = 3 pi mu d f (u - v).
+// Drag of a sphere at Reynolds numbers up to about 800: F = 3 pi mu d f (u - v),
+//   f = 1 + 0.15 Re^0.687
 // L. Schiller, A. Naumann, Z. Ver. Dtsch. Ing. 77, 318 (1933); R. Clift, J. R. Grace, M. E. Weber,
 // Bubbles, Drops and Particles, Academic Press 1978, table 5.1, ISBN 978-0-12-176950-5
 

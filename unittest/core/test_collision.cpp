@@ -33,7 +33,9 @@ struct ReferenceImpact {
   }
   State advanced(const State &y, Real h) const
   {
-    auto moved = [&y](const State &k, Real step) { return State{y.s + step * k.s, y.v + step * k.v}; };
+    auto moved = [&y](const State &k, Real step) {
+      return State{y.s + step * k.s, y.v + step * k.v};
+    };
     const State k1 = rate(y), k2 = rate(moved(k1, h / 2)), k3 = rate(moved(k2, h / 2));
     const State k4 = rate(moved(k3, h));
     return {y.s + h / 6 * (k1.s + 2 * k2.s + 2 * k3.s + k4.s),
@@ -83,9 +85,15 @@ double sticking_speed(TwoBodies two, double low, double high)
   return 0.5 * (low + high);
 }
 
-Interface of_equals(double E, double nu) { return interface({E, nu, 0.0}, {E, nu, 0.0}); }
+Interface of_equals(double E, double nu)
+{
+  return interface({E, nu, 0.0}, {E, nu, 0.0});
+}
 
-ContactModel hertz_of(const Interface &surface) { return hertz_model(surface.E, surface.G); }
+ContactModel hertz_of(const Interface &surface)
+{
+  return hertz_model(surface.E, surface.G);
+}
 
 }    // namespace
 
@@ -143,8 +151,7 @@ TEST(Collision, spheres_of_chung_and_ooi_test_1)    // doi:10.1007/s10035-011-02
 TEST(Collision, sphere_on_rigid_plane_of_chung_and_ooi_test_2)
 {
   const Material rigid{INFINITY, 0.3, 0.0};
-  auto aluminium =
-      TwoBodies::at_wall(hertz_of(interface({70e9, 0.3, 0.0}, rigid)), 0.1, 2699.0);
+  auto aluminium = TwoBodies::at_wall(hertz_of(interface({70e9, 0.3, 0.0}, rigid)), 0.1, 2699.0);
   Rebound r = head_on(aluminium, 0.2, 4000);
   EXPECT_NEAR(r.max_force / 11.37e3, 1.0, 1e-3);
   EXPECT_NEAR(r.max_overlap / 49.72e-6, 1.0, 1e-3);
@@ -181,9 +188,12 @@ TEST(Collision, sticking_speed_is_that_of_thornton_and_ning)    // doi:10.1016/S
 {
   const double w = 2.0 * sticky_model().surface.gamma, E = sticky_model().surface.E;
   const double r = 4.0e-6, rho = 2000.0;
-  auto formula = [&](double R) { return std::pow(std::pow(w / R, 5) / (rho * rho * rho * E * E), 1.0 / 6.0); };
+  auto formula = [&](double R) {
+    return std::pow(std::pow(w / R, 5) / (rho * rho * rho * E * E), 1.0 / 6.0);
+  };
   const double V = 1.8402 * formula(r);
-  EXPECT_NEAR(sticking_speed(TwoBodies::at_wall(sticky_model(), r, rho), 0.9 * V, 1.1 * V) / V, 1.0, 1e-3);
+  EXPECT_NEAR(sticking_speed(TwoBodies::at_wall(sticky_model(), r, rho), 0.9 * V, 1.1 * V) / V, 1.0,
+              1e-3);
   const double U = 0.9201 * formula(0.5 * r);
   const auto pair = TwoBodies::spheres(sticky_model(), r, r, rho, rho);
   EXPECT_NEAR(sticking_speed(pair, 0.9 * U, 1.1 * U) / U, 1.0, 1e-3);
@@ -261,7 +271,8 @@ TEST(Collision, softer_contact_keeps_sticking_speed_and_restitution)
     const auto impact = reference(two);
     for (const double ratio : {3.0, 10.0}) {
       const double expected = static_cast<double>(impact.restitution(ratio * V));
-      EXPECT_NEAR(head_on(two, ratio * V).restitution / expected, 1.0, 0.01) << f << " at " << ratio;
+      EXPECT_NEAR(head_on(two, ratio * V).restitution / expected, 1.0, 0.01)
+          << f << " at " << ratio;
     }
   }
 }

@@ -48,7 +48,7 @@ void shear(TwoBodies &two, int axis, double distance, int n = 1)
 // One way for a sphere to move at a wall it rests on: along y, about its normal, about z.
 struct Mode {
   const char *name;
-  int component;         // of force and velocity, or of torque and spin
+  int component;    // of force and velocity, or of torque and spin
   bool turns;
   double stiffness, limit;
 };
@@ -104,7 +104,10 @@ TEST(Sliding, threshold_falls_with_pull_and_rises_with_load)
   auto two = resting_pair();
   const struct {
     double overlap, elastic;    // delta_C, F_C (table of the JKR law)
-  } states[] = {{-1.0 + 1e-13, -5.0 / 9.0}, {-std::cbrt(1.0 / 9.0), -1.0}, {0.0, -8.0 / 9.0}, {3.0, 2.268041}};
+  } states[] = {{-1.0 + 1e-13, -5.0 / 9.0},
+                {-std::cbrt(1.0 / 9.0), -1.0},
+                {0.0, -8.0 / 9.0},
+                {3.0, 2.268041}};
   for (const auto &state : states) {
     two.place(state.overlap * two.pulloff_overlap());
     shear(two, 2, two.a0(), 10);
@@ -243,7 +246,8 @@ TEST(Rolling, by_a_right_angle_costs_six_pi_squared_gamma_R_xi)
   EXPECT_NEAR(work / E_roll, 1.0 - theta_crit / pi, 1e-5);    // less what loading the spring saves
 }
 
-TEST(Rolling, force_on_silica_spheres_is_that_measured_by_heim)    // doi:10.1103/PhysRevLett.83.3328
+TEST(Rolling,
+     force_on_silica_spheres_is_that_measured_by_heim)    // doi:10.1103/PhysRevLett.83.3328
 {
   ContactModel model;
   model.surface = {5.4e10 / (2.0 * (1.0 - 0.17 * 0.17)), 1.0e10, 0.014};
@@ -346,7 +350,8 @@ TEST(Friction, sliding_impact_of_chung_and_ooi_test_4)    // doi:10.1007/s10035-
     two.v[1] = V * std::sin(theta);
     const double e = collide(two, two.contact_time(V) / 4000).restitution;
     EXPECT_NEAR(e, asked, 1e-3);
-    EXPECT_NEAR(two.v[1] / (V * std::sin(theta)), 1.0 - friction * (1.0 + e) / std::tan(theta), 1e-4);
+    EXPECT_NEAR(two.v[1] / (V * std::sin(theta)), 1.0 - friction * (1.0 + e) / std::tan(theta),
+                1e-4);
     // the lever arm is r less the overlap, of which there is up to 0.7 %
     const double spin = 2.5 * friction * (1.0 + e) * V * std::cos(theta) / r;
     EXPECT_NEAR(std::fabs(two.omega[2]) / spin, 1.0, 0.005) << degrees;

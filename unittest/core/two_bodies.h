@@ -41,13 +41,14 @@ struct TwoBodies {
   apf::ContactKernel kernel;
   bool wall, planar = false;
 
-  static TwoBodies spheres(const apf::ContactModel &model, double ri, double rj, double rho_i = 2500.0,
-                           double rho_j = 2500.0)
+  static TwoBodies spheres(const apf::ContactModel &model, double ri, double rj,
+                           double rho_i = 2500.0, double rho_j = 2500.0)
   {
     const double mi = ball(ri, rho_i), mj = ball(rj, rho_j);
     const double Ii = 0.4 * mi * ri * ri, Ij = 0.4 * mj * rj * rj;
-    return {model, mi, mj, Ii, Ij,
-            apf::ContactBodies::pair(ri, rj, mi * mj / (mi + mj), Ii * Ij / (Ii + Ij)), false};
+    return {model, mi, mj,
+            Ii,    Ij, apf::ContactBodies::pair(ri, rj, mi * mj / (mi + mj), Ii * Ij / (Ii + Ij)),
+            false};
   }
 
   static TwoBodies at_wall(const apf::ContactModel &model, double r, double rho = 2500.0)
@@ -58,7 +59,8 @@ struct TwoBodies {
 
   TwoBodies(const apf::ContactModel &model, double mi, double mj, double Ii, double Ij,
             const apf::ContactBodies &bodies, bool wall) :
-      model(model), mass{mi, mj}, inertia{Ii, Ij}, bodies(bodies),
+      model(model),
+      mass{mi, mj}, inertia{Ii, Ij}, bodies(bodies),
       constants(apf::ContactConstants::make(model, bodies)), wall(wall)
   {
     live_in_plane(false);
@@ -112,6 +114,17 @@ struct TwoBodies {
 
   void touch(const apf::ContactHistory &history = {}) { list.add(0, 1, 0, constants, history); }
 
+  // Sees the same contact from the other body.
+  void swap()
+  {
+    const bool forwards = list.i[0] == 0;
+    const apf::ContactHistory history = list.history_of(0).swapped(planar);
+    std::swap(bodies.radius_i, bodies.radius_j);
+    constants = apf::ContactConstants::make(model, bodies);
+    list.clear();
+    list.add(forwards, !forwards, 0, constants, history);
+  }
+
   // The kernel alone, with what it is to be called with.
   void contact_forces(double dt)
   {
@@ -146,7 +159,10 @@ struct TwoBodies {
     return dot(vec(v, 0) - vec(v, 1), d) / std::sqrt(dot(d, d));
   }
 
-  static Vec3 vec(const double *u, int body) { return {u[3 * body], u[3 * body + 1], u[3 * body + 2]}; }
+  static Vec3 vec(const double *u, int body)
+  {
+    return {u[3 * body], u[3 * body + 1], u[3 * body + 2]};
+  }
   static void set(double *u, int body, const Vec3 &w)
   {
     u[3 * body] = w.x;

@@ -1,0 +1,387 @@
+// The kernel as a machine: blocks, parts, lists, energy, walls.
+
+#include "two_bodies.h"
+
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace apf;
+using namespace apf_test;
+
+namespace {
+
+// Many contacts at once between many bodies, with everything random, some of them beyond their
+// neck and some without a history.
+struct Crowd {
+  static constexpr int bodies = 40;
+  ContactList list;
+  KernelChoice choice;
+  std::vector<double> x, v, omega, f, torque;
+
+  Crowd(int size, int submodels, int seed) : f(3 * bodies), torque(3 * bodies)
+  {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(-1.0, 1.0);
+    choice.planar = submodels & 16;
+    for (auto *array : {&x, &v, &omega})
+      for (int c = 0; c < 3 * bodies; c++) array->push_back(u(random));
+    if (choice.planar) flatten();
+    for (int k = 0; k < size; k++) {
+      const int i = static_cast<int>(random() % bodies),
+                j = static_cast<int>((i + 1 + random() % 39) % bodies);
+      // half of the contacts lack a sub-model that others have
+      const ContactModel model = some(submodels & (k % 2 ? static_cast<int>(random() % 16) : 15));
+      choice.include(model);
+      add(i, j, k, model, u, random);
+    }
+    choice.include(some(submodels));
+  }
+
+  void flatten()
+  {
+    for (int b = 0; b < bodies; b++) {
+      x[3 * b + 2] = v[3 * b + 2] = 0.0;
+      omega[3 * b] = omega[3 * b + 1] = 0.0;
+    }
+  }
+
+  static ContactModel some(int submodels)
+  {
+    ContactModel model;
+    model.surface = {1.0e3, 300.0, (submodels & 1) ? 2.0 : 0.0};
+    model.mu = (submodels & 2) ? 0.3 : 0.0;
+    model.twisting = submodels & 4;
+    model.theta_crit = (submodels & 8) ? 0.02 : 0.0;
+    model.alpha = 0.4;
+    model.zeta = 0.2;
+    return model;
+  }
+
+  template <class Uniform, class Random>
+  void add(int i, int j, int k, const ContactModel &model, Uniform &u, Random &random)
+  {
+    const Vec3 d = TwoBodies::vec(x.data(), j) - TwoBodies::vec(x.data(), i);
+    const double distance = std::sqrt(norm2(d)), r = distance * (0.52 + 0.03 * u(random));
+    ContactHistory h;
+    if (k % 3) {
+      const Vec3 n = (1.0 / distance) * d, t = cross(n, {0.0, 0.0, 1.0});
+      TwoBodies::set(h.normal, 0, n);
+      TwoBodies::set(h.sliding, 0, 0.01 * u(random) * t);
+      TwoBodies::set(h.rolling, 0, 0.01 * u(random) * t);
+      h.twisting = choice.planar ? 0.0 : 0.1 * u(random);
+    }
+    const auto pair = ContactBodies::pair(r, r, 1.0 + 0.5 * u(random), 0.3);
+    list.add(i, j, k, ContactConstants::make(model, pair), h);
+  }
+
+  void evaluate(ContactKernel kernel, double dt, ContactParts *parts = nullptr)
+  {
+    std::fill(f.begin(), f.end(), 0.0);
+    std::fill(torque.begin(), torque.end(), 0.0);
+    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, dt, parts);
+  }
+  void evaluate(double dt, ContactParts *parts = nullptr)
+  {
+    evaluate(contact_kernel(choice), dt, parts);
+  }
+
+  // the same, each contact in a list of its own
+  void evaluate_one_by_one(double dt)
+  {
+    std::vector<double> sum_f(f.size()), sum_torque(f.size());
+    const ContactList all = list;
+    for (int k = 0; k < all.size(); k++) {
+      list.clear();
+      list.add(all.i[k], all.j[k], all.source[k], all.constants_of(k), all.history_of(k));
+      evaluate(dt);
+      for (size_t c = 0; c < f.size(); c++) {
+        sum_f[c] += f[c];
+        sum_torque[c] += torque[c];
+      }
+      results.push_back(list);
+    }
+    f = sum_f;
+    torque = sum_torque;
+    list = all;
+  }
+  std::vector<ContactList> results;
+};
+
+double largest(const std::vector<double> &values)
+{
+  double m = 0.0;
+  for (const double value : values) m = std::max(m, std::fabs(value));
+  return m;
+}
+
+void expect_same(const std::vector<double> &a, const std::vector<double> &b, double tolerance)
+{
+  const double scale = largest(b) + 1e-30;
+  for (size_t c = 0; c < a.size(); c++)
+    ASSERT_NEAR((a[c] - b[c]) / scale, 0.0, tolerance) << "component " << c;
+}
+
+void expect_same_contact(const ContactList &a, int k, const ContactList &b, int l)
+{
+  const ContactHistory h = a.history_of(k), g = b.history_of(l);
+  const double *u = h.sliding, *w = g.sliding;
+  for (int c = 0; c < ContactHistory::size; c++) ASSERT_NEAR(u[c], w[c], 1e-13) << "history " << c;
+  ASSERT_NEAR(a.overlap[k], b.overlap[l], 1e-14);
+  ASSERT_EQ(a.ended(k), b.ended(l));
+}
+
+constexpr int all_submodels = 15;
+
+}    // namespace
+
+TEST(Kernel, block_of_contacts_equals_one_contact_at_a_time)
+{
+  for (int submodels = 0; submodels < 32; submodels++)
+    for (int size = 1; size <= 20; size++) {
+      Crowd together(size, submodels, 100 * submodels + size), alone = together;
+      together.evaluate(0.01);
+      alone.evaluate_one_by_one(0.01);
+      SCOPED_TRACE(testing::Message() << "sub-models " << submodels << " contacts " << size);
+      expect_same(together.f, alone.f, 1e-13);
+      expect_same(together.torque, alone.torque, 1e-13);
+      for (int k = 0; k < size; k++) expect_same_contact(together.list, k, alone.results[k], 0);
+      if (size > 5) {    // fewer may all be beyond their necks
+        EXPECT_GT(largest(together.f), 0.0);
+      }
+    }
+}
+
+TEST(Kernel, builds_for_different_processors_agree)
+{
+  for (int submodels = 0; submodels < 32; submodels++) {
+    Crowd best(20, submodels, submodels), baseline = best;
+    best.evaluate(0.01);
+    baseline.evaluate(baseline::contact_kernel(baseline.choice), 0.01);
+    expect_same(best.f, baseline.f, 1e-12);
+    expect_same(best.torque, baseline.torque, 1e-12);
+  }
+}
+
+TEST(Kernel, asking_for_parts_changes_nothing)
+{
+  for (const int submodels : {all_submodels, all_submodels + 16}) {
+    Crowd quiet(19, submodels, 3), asked = quiet;
+    std::vector<ContactParts> parts(19);
+    quiet.evaluate(0.01);
+    asked.evaluate(0.01, parts.data());
+    expect_same(asked.f, quiet.f, 1e-13);
+    expect_same(asked.torque, quiet.torque, 1e-13);
+    for (int k = 0; k < 19; k++) expect_same_contact(asked.list, k, quiet.list, k);
+  }
+}
+
+TEST(Kernel, parts_add_up_to_the_force)
+{
+  for (const int submodels : {all_submodels, all_submodels + 16}) {
+    Crowd crowd(20, submodels, 4);
+    std::vector<ContactParts> parts(20);
+    crowd.evaluate(0.01, parts.data());
+    std::vector<double> f(crowd.f.size());
+    for (int k = 0; k < 20; k++) {
+      const int i = crowd.list.i[k], j = crowd.list.j[k];
+      const Vec3 d = TwoBodies::vec(crowd.x.data(), j) - TwoBodies::vec(crowd.x.data(), i);
+      const Vec3 n = (1.0 / std::sqrt(norm2(d))) * d;
+      const ContactParts &p = parts[k];
+      const Vec3 sum = TwoBodies::vec(p.sliding, 0) - (p.elastic + p.damping) * n;
+      const double size = std::sqrt(norm2(sum)) + 1.0;
+      EXPECT_NEAR(std::sqrt(norm2(sum - TwoBodies::vec(p.force, 0))) / size, 0.0, 1e-13);
+      EXPECT_NEAR(dot(TwoBodies::vec(p.sliding, 0), n) / size, 0.0, 1e-13);
+      EXPECT_NEAR(dot(TwoBodies::vec(p.rolling, 0), n) / size, 0.0, 1e-13);
+      EXPECT_EQ(p.overlap, crowd.list.overlap[k]);
+      for (int c = 0; c < 3; c++) {
+        f[3 * i + c] += p.force[c];
+        f[3 * j + c] -= p.force[c];
+      }
+    }
+    expect_same(f, crowd.f, 1e-13);
+  }
+}
+
+TEST(Kernel, forces_are_added_to_what_is_there)
+{
+  Crowd crowd(12, all_submodels, 5), again = crowd;
+  crowd.evaluate(0.0);
+  std::fill(again.f.begin(), again.f.end(), 3.0);
+  std::fill(again.torque.begin(), again.torque.end(), -2.0);
+  contact_kernel(again.choice)(
+      again.list,
+      {again.x.data(), again.v.data(), again.omega.data(), again.f.data(), again.torque.data()},
+      0.0, nullptr);
+  for (size_t c = 0; c < crowd.f.size(); c++) {
+    EXPECT_NEAR(again.f[c] - 3.0, crowd.f[c], 1e-13 * largest(crowd.f));
+    EXPECT_NEAR(again.torque[c] + 2.0, crowd.torque[c], 1e-13 * largest(crowd.f));
+  }
+}
+
+TEST(Kernel, contact_beyond_its_neck_exerts_nothing_and_has_ended)
+{
+  for (const double gamma : {0.12, 0.0}) {
+    ContactModel model = sticky_model();
+    model.surface.gamma = gamma;
+    model.mu = 0.3;
+    model.twisting = true;
+    model.theta_crit = 0.01;
+    model.alpha = model.zeta = 0.3;
+    auto two = TwoBodies::spheres(model, 4.0e-6, 4.0e-6);
+    for (const double beyond : {1e-9, 1e-3, 10.0}) {
+      const double scale = gamma > 0.0 ? two.pulloff_overlap() : 1.0e-9;
+      two.place(-two.pulloff_overlap() - beyond * scale);
+      for (double *u : {two.v, two.omega}) std::fill(u, u + 3, 1.0);
+      two.contact_forces(1.0e-9);
+      for (int c = 0; c < 6; c++) {
+        EXPECT_EQ(two.f[c], 0.0);
+        EXPECT_EQ(two.torque[c], 0.0);
+      }
+      EXPECT_TRUE(two.list.ended(0));
+      EXPECT_EQ(two.parts.elastic_energy, 0.0);
+    }
+    two.place(-two.pulloff_overlap() * (1.0 - 1e-12) + (gamma > 0.0 ? 0.0 : 1e-12));
+    two.contact_forces(0.0);
+    EXPECT_FALSE(two.list.ended(0));
+  }
+}
+
+TEST(Kernel, evaluation_without_time_leaves_the_springs_alone)
+{
+  Crowd crowd(20, all_submodels, 6);
+  crowd.evaluate(0.01);
+  const ContactList before = crowd.list;
+  for (double &component : crowd.v) component *= 3.0;    // other velocities, same places
+  crowd.evaluate(0.0);
+  for (int k = 0; k < 20; k++) expect_same_contact(crowd.list, k, before, k);
+}
+
+TEST(ContactList, removal_keeps_the_others)
+{
+  Crowd crowd(11, all_submodels, 8);
+  const ContactList all = crowd.list;
+  for (const int gone : {10, 0, 4, 4, 1}) crowd.list.remove(gone);
+  ASSERT_EQ(crowd.list.size(), 6);
+  for (int k = 0; k < crowd.list.size(); k++) {
+    const int was = crowd.list.source[k];    // the mark that it was added with
+    EXPECT_EQ(crowd.list.i[k], all.i[was]);
+    EXPECT_EQ(crowd.list.j[k], all.j[was]);
+    EXPECT_EQ(crowd.list.constants_of(k).eta, all.constants_of(was).eta);
+    EXPECT_EQ(crowd.list.constants_of(k).break_overlap, all.constants_of(was).break_overlap);
+    expect_same_contact(crowd.list, k, all, was);
+    for (int l = 0; l < k; l++) EXPECT_NE(crowd.list.source[l], was);
+  }
+  crowd.list.clear();
+  EXPECT_EQ(crowd.list.size(), 0);
+  crowd.evaluate(0.01);
+  EXPECT_EQ(largest(crowd.f), 0.0);
+}
+
+TEST(ContactList, history_seen_twice_from_the_other_side_is_itself)
+{
+  Crowd crowd(1, all_submodels, 2);
+  ContactHistory h = crowd.list.history_of(0);
+  h.sliding[1] = 0.3;
+  h.rolling[2] = -0.2;
+  h.twisting = 0.7;
+  h.normal[0] = 1.0;
+  for (const bool planar : {false, true}) {
+    const ContactHistory twice = h.swapped(planar).swapped(planar);
+    for (int c = 0; c < ContactHistory::size; c++) EXPECT_EQ(twice.sliding[c], h.sliding[c]);
+  }
+}
+
+TEST(Energy, of_an_undamped_doublet_does_not_drift)
+{
+  auto two = TwoBodies::spheres(sticky_model(), 4.0e-6, 4.0e-6);
+  two.place(two.equilibrium_overlap() + 0.2 * two.pulloff_overlap());
+  two.contact_forces(0.0);
+  auto energy = [&two] {
+    return two.kinetic_energy() + two.parts.elastic_energy;
+  };
+  // the well is 1.542585 F_C delta_C deep; the oscillation has about 0.02 of it
+  const double scale = two.pulloff_force() * two.pulloff_overlap();
+  const double dt = 0.1 * std::sqrt(two.bodies.m * two.pulloff_overlap() / two.pulloff_force());
+  const int n = 100000, window = 5000;
+  double first = 0.0, last = 0.0;
+  for (int k = 0; k < n; k++) {
+    two.step(dt);
+    ASSERT_FALSE(two.ended());
+    if (k < window) first += energy() / window;
+    if (k >= n - window) last += energy() / window;
+  }
+  EXPECT_NEAR((last - first) / (0.02 * scale), 0.0, 1e-4);
+}
+
+TEST(Energy, of_springs_is_the_work_that_loads_them)
+{
+  ContactModel model = sticky_model();
+  model.mu = 0.3;
+  model.twisting = true;
+  model.theta_crit = 0.02;
+  auto two = TwoBodies::spheres(model, 4.0e-6, 4.0e-6);
+  two.place(two.equilibrium_overlap());
+  const double slip = 1.0e-10, twist = 1.0e-4, roll = 1.0e-3;
+  two.v[1] = slip;
+  two.omega[0] = twist;
+  two.omega[2] = 0.5 * roll;
+  two.omega[5] = -0.5 * roll;
+  two.contact_forces(1.0);
+  EXPECT_NEAR(two.parts.sliding_energy / (-0.5 * two.f[1] * slip), 1.0, 1e-6);
+  EXPECT_NEAR(two.parts.twisting_energy / (-0.5 * two.torque[0] * twist), 1.0, 1e-9);
+  EXPECT_NEAR(two.parts.rolling_energy / (-0.5 * two.parts.rolling[2] * roll), 1.0, 1e-9);
+}
+
+TEST(Wall, is_a_sphere_of_a_million_radii)
+{
+  ContactModel model;
+  model.surface = {5.0e10, 1.2e10, 0.02};
+  model.mu = 0.3;
+  model.twisting = true;
+  model.theta_crit = 0.01;
+  model.alpha = 0.2;
+  const double r = 5.0e-6;
+  auto wall = TwoBodies::at_wall(model, r), sphere = TwoBodies::spheres(model, r, 1.0e6 * r);
+  sphere.mass[1] = sphere.inertia[1] = 0.0;
+  const double V = 5.0 * wall.sticking_speed();
+  for (TwoBodies *two : {&wall, &sphere}) {
+    two->place(0.0);
+    TwoBodies::set(two->v, 0, {V, 0.7 * V, -0.2 * V});
+    TwoBodies::set(two->omega, 0, {0.1 * V / r, 0.2 * V / r, -0.3 * V / r});
+  }
+  const double dt = wall.contact_time(V) / 1000;
+  const Rebound a = collide(wall, dt), b = collide(sphere, dt);
+  EXPECT_GT(a.restitution, 0.1);
+  EXPECT_NEAR(b.restitution / a.restitution, 1.0, 1e-3);
+  EXPECT_NEAR(b.max_force / a.max_force, 1.0, 1e-3);
+  EXPECT_NEAR(b.max_overlap / a.max_overlap, 1.0, 1e-3);
+  for (int c = 0; c < 3; c++) {
+    EXPECT_NEAR((wall.v[c] - sphere.v[c]) / V, 0.0, 1e-3) << c;
+    EXPECT_NEAR((wall.omega[c] - sphere.omega[c]) * r / V, 0.0, 2e-3) << c;
+  }
+}
+
+TEST(Wall, of_lower_radius_is_a_large_sphere)
+{
+  ContactModel model = sticky_model();
+  model.alpha = 0.2;
+  const double r = 5.0e-6;
+  for (const double ratio : {100.0, 1000.0}) {
+    auto wall = TwoBodies::at_wall(model, r), sphere = TwoBodies::spheres(model, r, ratio * r);
+    wall.bodies.R = r / (1.0 + 1.0 / ratio);
+    wall.constants = ContactConstants::make(model, wall.bodies);
+    sphere.bodies.m = wall.bodies.m;    // held
+    sphere.constants = ContactConstants::make(model, sphere.bodies);
+    sphere.mass[1] = 0.0;
+    EXPECT_NEAR(sphere.normal().equilibrium_radius() / wall.a0(), 1.0, 1e-9) << ratio;
+    const double V = 4.0 * wall.sticking_speed(), dt = wall.contact_time(V) / 1000;
+    for (TwoBodies *two : {&wall, &sphere}) {
+      two->place(0.0);
+      two->v[0] = V;
+    }
+    const Rebound a = collide(wall, dt), b = collide(sphere, dt);
+    EXPECT_GT(a.restitution, 0.1);
+    EXPECT_NEAR(b.restitution / a.restitution, 1.0, 1e-3) << ratio;
+    EXPECT_NEAR(b.max_force / a.max_force, 1.0, 1e-3) << ratio;
+  }
+}
