@@ -19,7 +19,10 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-template <class Style> void *create(LAMMPS *lmp) { return new Style(lmp); }
+template <class Style> void *create(LAMMPS *lmp)
+{
+  return new Style(lmp);
+}
 
 template <class Style> void *create_with_words(LAMMPS *lmp, int narg, char **arg)
 {
@@ -50,10 +53,10 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
     plugin.info = info;
     register_plugin(&plugin, lmp);
   };
-  auto creates = [&](void *(*creator)(LAMMPS *)) {
+  auto creates = [&](void *(*creator)(LAMMPS *) ) {
     plugin.creator.v1 = reinterpret_cast<lammpsplugin_factory1 *>(creator);
   };
-  auto creates_with_words = [&](void *(*creator)(LAMMPS *, int, char **)) {
+  auto creates_with_words = [&](void *(*creator)(LAMMPS *, int, char **) ) {
     plugin.creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(creator);
   };
 

@@ -15,12 +15,13 @@ void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel 
   const double ratio = model.normal(R).equilibrium_overlap() / smaller_radius;
   if (ratio <= much) return;
   // overlap / r ~ (gamma/E)^(2/3)
-  const std::string message = fmt::format(
-      "{}: at rest they overlap by {:.3g} of the smaller radius; a Young's modulus E {:.3g} times as "
-      "large makes it {}", who, ratio, std::pow(ratio / much, 1.5), much);
+  const std::string message = fmt::format("{}: at rest they overlap by {:.3g} of the smaller "
+                                          "radius; a Young's modulus E {:.3g} times as "
+                                          "large makes it {}",
+                                          who, ratio, std::pow(ratio / much, 1.5), much);
   if (ratio > too_much)
-    lmp->error->all(FLERR, Error::NOLASTLINE, "{}; above {} the contact law has no meaning", message,
-                    too_much);
+    lmp->error->all(FLERR, Error::NOLASTLINE, "{}; above {} the contact law has no meaning",
+                    message, too_much);
   if (lmp->comm->me == 0) lmp->error->warning(FLERR, message);
 }
 
@@ -28,11 +29,12 @@ void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode
 {
   const double kappa = mode.frequency * dt;
   if (kappa <= apf::largest_stable_kappa || lmp->comm->me != 0) return;
-  lmp->error->warning(FLERR,
-                      "{}: timestep {:.4g} is too large for the {} mode of a contact, omega dt = {:.3g}; "
-                      "above {} dense packings are unstable; {:.3g} gives {}", who, dt, mode.name, kappa,
-                      apf::largest_stable_kappa, apf::accurate_kappa / mode.frequency,
-                      apf::accurate_kappa);
+  lmp->error->warning(
+      FLERR,
+      "{}: timestep {:.4g} is too large for the {} mode of a contact, omega dt = {:.3g}; "
+      "above {} dense packings are unstable; {:.3g} gives {}",
+      who, dt, mode.name, kappa, apf::largest_stable_kappa, apf::accurate_kappa / mode.frequency,
+      apf::accurate_kappa);
 }
 
 }    // namespace LAMMPS_NS

@@ -74,8 +74,8 @@ void parse_damping(Words &words, apf::ContactModel &model)
 {
   if (words.is("tsuji")) {
     words.skip();
-    model.alpha = apf::damping_from_restitution(
-        words.number("damping tsuji restitution", 0.0, false, 1.0));
+    model.alpha =
+        apf::damping_from_restitution(words.number("damping tsuji restitution", 0.0, false, 1.0));
   } else if (words.is("alpha")) {
     words.skip();
     model.alpha = words.number("damping alpha", 0.0, true, infinity);
@@ -190,7 +190,8 @@ std::string ContactCoeff::words() const
                                  material.nu, material.gamma, model.alpha);
   if (model.sliding()) text += fmt::format(" sliding {:.16g}", model.mu);
   if (model.twisting) text += " twisting yes";
-  if (model.rolling()) text += fmt::format(" rolling {:.16g} {:.16g}", model.theta_crit, model.zeta);
+  if (model.rolling())
+    text += fmt::format(" rolling {:.16g} {:.16g}", model.theta_crit, model.zeta);
   if (model.neck_end == apf::Break::force) text += " break force";
   if (model.stiffness_scale != 1.0)
     text += fmt::format(" scale_stiffness {:.16g}", model.stiffness_scale);

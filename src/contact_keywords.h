@@ -12,8 +12,8 @@ namespace LAMMPS_NS {
 class LAMMPS;
 
 struct ContactCoeff {
-  apf::Material material{};      // of both bodies
-  apf::ContactModel model{};     // its surface is interface(material, material)
+  apf::Material material{};     // of both bodies
+  apf::ContactModel model{};    // its surface is interface(material, material)
 
   // Two materials that no script line joins: surfaces by eq (16) and Berthelot; damping, friction,
   // rolling angle and its damping by geometric mean; a sub-model acts if both have it.

@@ -15,7 +15,8 @@ using namespace FixConst;
 
 /* ---------------------------------------------------------------------- */
 
-FixContactHistory::FixContactHistory(LAMMPS *lmp, int narg, char **arg) : FixContacts(lmp, narg, arg)
+FixContactHistory::FixContactHistory(LAMMPS *lmp, int narg, char **arg) :
+    FixContacts(lmp, narg, arg)
 {
   if (narg != 3) error->all(FLERR, 3, "Fix contact/history takes no arguments, got {}", arg[3]);
   comm_forward = 6;
@@ -40,7 +41,8 @@ void FixContactHistory::init()
     if (fix->pre_exchange_migrate)
       error->all(FLERR, Error::NOLASTLINE,
                  "Pair style granular/adhesive must be defined before fix {} {}, which moves atoms "
-                 "between ranks", fix->id, fix->style);
+                 "between ranks",
+                 fix->id, fix->style);
   }
 }
 

@@ -30,8 +30,8 @@ FixContacts::~FixContacts()
 
 int FixContacts::setmask()
 {
-  return POST_INTEGRATE_RESPA | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR |
-      POST_RUN;
+  return POST_INTEGRATE_RESPA | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR |
+      MIN_POST_NEIGHBOR | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */

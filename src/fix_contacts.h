@@ -50,8 +50,8 @@ class FixContacts : public Fix {
   virtual std::vector<double> global_state() const { return {}; }
   virtual void set_global_state(const double *) {}
 
-  void synchronize();             // velocities of local atoms at the time of the positions
-  double step_of_level() const;   // time between two force computations
+  void synchronize();              // velocities of local atoms at the time of the positions
+  double step_of_level() const;    // time between two force computations
 };
 
 }    // namespace LAMMPS_NS

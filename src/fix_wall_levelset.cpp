@@ -7,6 +7,7 @@
 #include "error.h"
 #include "fix_contact_history.h"
 #include "force.h"
+#include "lammps_version.h"
 #include "math_const.h"
 #include "modify.h"
 #include "pair.h"
@@ -27,8 +28,10 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
     FixContacts(lmp, narg, arg), kernel(nullptr)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    error->all(FLERR, 2, "{} needs atom style sphere: radius, mass, omega and torque per atom; atom "
-               "style {} has not all of them", command, atom->get_style());
+    error->all(FLERR, 2,
+               "{} needs atom style sphere: radius, mass, omega and torque per atom; atom "
+               "style {} has not all of them",
+               command, atom->get_style());
   scalar_flag = 1;
   vector_flag = 1;
   size_vector = 9;
@@ -46,8 +49,10 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   if (iarg < narg) {
     if (strcmp(arg[iarg], "zone") == 0)
       error->all(FLERR, iarg, "{} keyword zone is not available in this version", command);
-    error->all(FLERR, iarg, "{} keyword {} is unknown; known are damping, sliding, twisting, rolling, "
-               "break, scale_stiffness", command, arg[iarg]);
+    error->all(FLERR, iarg,
+               "{} keyword {} is unknown; known are damping, sliding, twisting, rolling, "
+               "break, scale_stiffness",
+               command, arg[iarg]);
   }
   choice.planar = domain->dimension == 2;
   choice.include(coefficient.model);
@@ -65,7 +70,9 @@ void FixWallLevelset::parse_surfaces(int narg, char **arg, int &iarg)
     iarg++;
     return word[0] - 'x';
   };
-  auto number = [&]() { return utils::numeric(FLERR, arg[iarg++], false, lmp); };
+  auto number = [&]() {
+    return utils::numeric(FLERR, arg[iarg++], false, lmp);
+  };
 
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix wall/levelset", error);
   const std::string shape = arg[iarg++];
@@ -147,9 +154,10 @@ void FixWallLevelset::init()
   if (smallest[0] == 0.0) return;
   const double r = 1.0 / smallest[0], m = 1.0 / smallest[1];
   check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, r, r);
-  check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
-                 apf::stiffest_mode(coefficient.model, apf::ContactBodies::wall(r, m, 0.4 * m * r * r)),
-                 step_of_level());
+  check_timestep(
+      lmp, fmt::format("Fix wall/levelset {}", id),
+      apf::stiffest_mode(coefficient.model, apf::ContactBodies::wall(r, m, 0.4 * m * r * r)),
+      step_of_level());
 }
 
 /* ----------------------------------------------------------------------
@@ -222,7 +230,8 @@ void FixWallLevelset::detect()
       if (distance <= 0.0)
         error->one(FLERR, Error::NOLASTLINE,
                    "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
-                   "inside, or use a smaller timestep", command, id, atom->tag[i], -distance);
+                   "inside, or use a smaller timestep",
+                   command, id, atom->tag[i], -distance);
       close(i, s, apf::ContactHistory());
       captured += 1.0;
     }
@@ -241,7 +250,8 @@ void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &histo
   }
   const int k = contacts.size();
   contacts.add(2 * k, 2 * k + 1, i,
-               apf::ContactConstants::make(coefficient.model, apf::ContactBodies::wall(r, m, I)), history);
+               apf::ContactConstants::make(coefficient.model, apf::ContactBodies::wall(r, m, I)),
+               history);
   surface_of.push_back(surface);
   touched[i] |= 1u << surface;
 }
@@ -284,9 +294,10 @@ void FixWallLevelset::gather()
     const int i = contacts.source[k];
     const auto &surface = surfaces[surface_of[k]];
     if (surface.distance(atom->x[i]) <= 0.0)
-      error->one(FLERR, Error::NOLASTLINE,
-                 "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
-                 command, id, atom->tag[i]);
+      error->one(
+          FLERR, Error::NOLASTLINE,
+          "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
+          command, id, atom->tag[i]);
     std::copy(atom->x[i], atom->x[i] + 3, &rows.x[6 * k]);
     std::copy(v + 3 * i, v + 3 * i + 3, &rows.v[6 * k]);
     std::copy(omega + 3 * i, omega + 3 * i + 3, &rows.omega[6 * k]);
@@ -357,8 +368,9 @@ double FixWallLevelset::compute_scalar()
   if (contacts.size() > 0) {
     std::vector<apf::ContactParts> parts(contacts.size());
     std::vector<double> unused(rows.f.size()), unused_torque(rows.f.size());
-    kernel(contacts, {rows.x.data(), rows.v.data(), rows.omega.data(), unused.data(),
-                      unused_torque.data()}, 0.0, parts.data());
+    kernel(contacts,
+           {rows.x.data(), rows.v.data(), rows.omega.data(), unused.data(), unused_torque.data()},
+           0.0, parts.data());
     for (const auto &p : parts)
       energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
   }
@@ -428,7 +440,6 @@ int FixWallLevelset::image(int *&objects, double **&values)
 
 void FixWallLevelset::add_image(const apf::Surface &surface)
 {
-  constexpr int LINE = 1, TRI = 2;    // as dump image numbers them
   const double *lo = domain->boxlo, *hi = domain->boxhi;
   using Point = std::array<double, 3>;
   auto add = [&](int object, const Point &a, const Point &b, const Point &c) {
@@ -438,10 +449,10 @@ void FixWallLevelset::add_image(const apf::Surface &surface)
   // a quadrilateral, or in the plane its edge from a to b
   auto patch = [&](const Point &a, const Point &b, const Point &c, const Point &d) {
     if (domain->dimension == 2) {
-      add(LINE, a, b, b);
+      add(Graphics::LINE, a, b, b);
     } else {
-      add(TRI, a, b, c);
-      add(TRI, a, c, d);
+      add(Graphics::TRI, a, b, c);
+      add(Graphics::TRI, a, c, d);
     }
   };
 

@@ -49,8 +49,8 @@ class FixWallLevelset : public FixContacts {
   // One contact = one particle at one surface. Rows 2k and 2k+1 of `rows` are the particle and its
   // foot point on the wall, a body without radius.
   apf::ContactList contacts;
-  std::vector<int> surface_of;          // surface of each contact; its atom is contacts.source
-  std::vector<unsigned> touched;        // per atom: bit s set if it is in contact with surface s
+  std::vector<int> surface_of;      // surface of each contact; its atom is contacts.source
+  std::vector<unsigned> touched;    // per atom: bit s set if it is in contact with surface s
   struct Rows {
     std::vector<double> x, v, omega, f, torque;
     void resize(int n);
@@ -63,7 +63,7 @@ class FixWallLevelset : public FixContacts {
   double loads[6] = {};                     // force and torque on the wall, of this rank
   double all_loads[9] = {};                 // the same over all ranks, contacts, begun, ended
   bool loads_summed = false;
-  std::vector<int> count_of_atom;           // for other styles: contacts of each atom
+  std::vector<int> count_of_atom;    // for other styles: contacts of each atom
   std::vector<int> image_objects;
   std::vector<std::array<double, 10>> image_values;
   std::vector<double *> image_rows;

@@ -21,8 +21,8 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr int n_parts = 11;       // values per pair that single() offers
-static constexpr int n_energies = 4;     // energies by part that compute pair offers
+static constexpr int n_parts = 11;      // values per pair that single() offers
+static constexpr int n_energies = 4;    // energies by part that compute pair offers
 
 /* ---------------------------------------------------------------------- */
 
@@ -41,8 +41,8 @@ PairGranularAdhesive::PairGranularAdhesive(LAMMPS *lmp) : Pair(lmp)
   comm_forward = 1;    // mass of rigid bodies
 
   // The fix that keeps histories must stand before fixes that add, delete or move atoms, yet it can
-  // take them from a restart file only if it is made after the file is read: a placeholder keeps its
-  // place until init_style(). Numbered within this LAMMPS, so that a restarted run has the same ID.
+  // take them from a restart file only if it is made after the file is read: a placeholder keeps
+  // its place until init_style(). Numbered within this LAMMPS, so that a restart finds the same ID.
   int n = 0;
   for (const auto &fix : modify->get_fix_list())
     if (utils::strmatch(fix->id, "^CONTACT_HISTORY_")) n++;
@@ -165,7 +165,8 @@ apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j) const
     if (mass_rigid[j] > 0.0) mj = mass_rigid[j];
   }
   double inv_mi = 1.0 / mi, inv_mj = 1.0 / mj;
-  const bool frozen_i = atom->mask[i] & freeze_group_bit, frozen_j = atom->mask[j] & freeze_group_bit;
+  const bool frozen_i = atom->mask[i] & freeze_group_bit,
+             frozen_j = atom->mask[j] & freeze_group_bit;
   if (frozen_i && !frozen_j) inv_mi = inv_Ii = 0.0;
   if (frozen_j && !frozen_i) inv_mj = inv_Ij = 0.0;
   return apf::ContactBodies::pair(ri, rj, 1.0 / (inv_mi + inv_mj), 1.0 / (inv_Ii + inv_Ij));
@@ -248,8 +249,10 @@ void PairGranularAdhesive::coeff(int narg, char **arg)
   int iarg = 2;
   const auto coeff = parse_contact(lmp, "Pair granular/adhesive", narg, arg, iarg, 1);
   if (iarg < narg)
-    error->all(FLERR, iarg + 1, "Pair granular/adhesive keyword {} is unknown; known are damping, "
-               "sliding, twisting, rolling, break, scale_stiffness", arg[iarg]);
+    error->all(FLERR, iarg + 1,
+               "Pair granular/adhesive keyword {} is unknown; known are damping, "
+               "sliding, twisting, rolling, break, scale_stiffness",
+               arg[iarg]);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
@@ -267,29 +270,36 @@ void PairGranularAdhesive::coeff(int narg, char **arg)
 void PairGranularAdhesive::init_style()
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs atom style sphere: radius, mass, omega and torque "
-               "per atom; atom style {} has not all of them", atom->get_style());
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair granular/adhesive needs atom style sphere: radius, mass, omega and torque "
+               "per atom; atom style {} has not all of them",
+               atom->get_style());
   if (atom->tag_enable == 0)
-    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs atom IDs: remove atom_modify id no");
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair granular/adhesive needs atom IDs: remove atom_modify id no");
   if (comm->ghost_velocity == 0)
-    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs velocities of ghost atoms: add comm_modify vel yes");
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair granular/adhesive needs velocities of ghost atoms: add comm_modify vel yes");
   for (int n = 1; n < 4; n++)
     if (force->special_lj[n] != 0.0 && force->special_lj[n] != 1.0)
-      error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive takes special_bonds lj factors 0 or 1, got {}",
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair granular/adhesive takes special_bonds lj factors 0 or 1, got {}",
                  force->special_lj[n]);
 
   neighbor->add_request(this, NeighConst::REQ_SIZE);
 
   const auto freezes = modify->get_fix_by_style("^freeze");
   if (freezes.size() > 1)
-    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive allows one fix freeze, got {}", freezes.size());
+    error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive allows one fix freeze, got {}",
+               freezes.size());
   freeze_group_bit = freezes.empty() ? 0 : freezes[0]->groupbit;
 
   rigid = nullptr;
   for (const auto &fix : modify->get_fix_list())
     if (fix->rigid_flag) {
       if (rigid)
-        error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive allows one fix rigid, got {} and {}", rigid->id,
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Pair granular/adhesive allows one fix rigid, got {} and {}", rigid->id,
                    fix->id);
       rigid = fix;
     }
@@ -317,7 +327,8 @@ void PairGranularAdhesive::find_radii()
     const double r = atom->radius[i];
     const int t = atom->type[i];
     if (r <= 0.0)
-      error->one(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs radii > 0, atom {} has {}", atom->tag[i], r);
+      error->one(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs radii > 0, atom {} has {}",
+                 atom->tag[i], r);
     largest[t] = MAX(largest[t], r);
     inverse_smallest[t] = MAX(inverse_smallest[t], 1.0 / r);
   }
@@ -474,15 +485,19 @@ void PairGranularAdhesive::evaluate_parts()
   kernel(contacts, bodies(unused.data(), unused.data() + 3 * static_cast<size_t>(atom->nmax)), 0.0,
          parts.data());
   for (int k = 0; k < contacts.size(); k++)
-    index_of_pair[(static_cast<uint64_t>(contacts.i[k]) << 32) | static_cast<uint32_t>(contacts.j[k])] = k;
+    index_of_pair[(static_cast<uint64_t>(contacts.i[k]) << 32) |
+                  static_cast<uint32_t>(contacts.j[k])] = k;
 }
 
-double PairGranularAdhesive::single(int i, int j, int, int, double rsq, double, double, double &fforce)
+double PairGranularAdhesive::single(int i, int j, int, int, double rsq, double, double,
+                                    double &fforce)
 {
   evaluate_parts();
   fforce = 0.0;
   std::fill(svector, svector + n_parts, 0.0);
-  auto key = [](int a, int b) { return (static_cast<uint64_t>(a) << 32) | static_cast<uint32_t>(b); };
+  auto key = [](int a, int b) {
+    return (static_cast<uint64_t>(a) << 32) | static_cast<uint32_t>(b);
+  };
   auto found = index_of_pair.find(key(i, j));
   double sign = 1.0;    // of tangential parts: they are those on the first atom
   if (found == index_of_pair.end()) {

@@ -58,11 +58,11 @@ class PairGranularAdhesive : public Pair {
 
   class FixContactHistory *store = nullptr;    // histories between rebuilds, velocities
   std::string id_store;
-  bool rebuild = true;               // neighbour list is newer than candidates
-  double neck_max = 0.0;             // longest neck of any pair of types
+  bool rebuild = true;      // neighbour list is newer than candidates
+  double neck_max = 0.0;    // longest neck of any pair of types
   int freeze_group_bit = 0;
   class Fix *rigid = nullptr;
-  std::vector<double> mass_rigid;      // of the body an atom belongs to, 0 if none
+  std::vector<double> mass_rigid;                // of the body an atom belongs to, 0 if none
   std::vector<double> radius_min, radius_max;    // per type, over all ranks
 
   // parts of all contacts at one timestep, for single()

@@ -1,12 +1,12 @@
 // Velocities at the time of the positions, for friction and damping.
 //
-// When velocity Verlet computes forces, positions stand at t + dt and velocities at t + dt/2. Contact
-// laws that use both corrupt static friction between unequal particles (arXiv:2410.14798), so the
-// velocities are carried on by the acceleration of the last step:
+// When velocity Verlet computes forces, positions stand at t + dt and velocities at t + dt/2.
+// Contact laws that use both corrupt static friction between unequal particles (arXiv:2410.14798),
+// so the velocities are carried on by the acceleration of the last step:
 //   v(t + dt) = v(t + dt/2) + [v(t + dt/2) - v(t - dt/2)] / 2
 //
-// It also remembers, at the end of a run, which velocities its last forces were computed with: a run
-// that goes on from there, or from a restart file, gets the same forces again, to the last bit.
+// It also remembers, at the end of a run, which velocities its last forces were computed with: a
+// run that goes on from there, or from a restart file, gets the same forces again, to the last bit.
 
 #ifndef APF_SYNCHRONOUS_VELOCITY_H
 #define APF_SYNCHRONOUS_VELOCITY_H
@@ -47,8 +47,8 @@ class SynchronousVelocity {
     first_step = true;
   }
 
-  // Before every other force computation. Where an outer level of r-RESPA has just kicked, the change
-  // since the last inner step is no acceleration: the one before is kept.
+  // Before every other force computation. Where an outer level of r-RESPA has just kicked, the
+  // change since the last inner step is no acceleration: the one before is kept.
   void predict(const Atom *atom, bool outer_kick)
   {
     const double share = first_step ? 1.0 : 0.5;

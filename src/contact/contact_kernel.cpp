@@ -6,9 +6,7 @@
 #define APF_ISA baseline
 #endif
 
-namespace apf {
-namespace APF_ISA {
-namespace {
+namespace apf::APF_ISA {
 
 constexpr int width = 8;    // contacts per block: one AVX-512 register, two AVX2, four SSE2
 
@@ -21,7 +19,10 @@ struct Block {
 template <class Frame> struct Access;
 
 template <> struct Access<SpaceFrame> {
-  static APF_INLINE Vec3 vector(const double (*a)[width], int l) { return {a[0][l], a[1][l], a[2][l]}; }
+  static APF_INLINE Vec3 vector(const double (*a)[width], int l)
+  {
+    return {a[0][l], a[1][l], a[2][l]};
+  }
   static APF_INLINE Vec3 spin(const double (*a)[width], int l) { return vector(a, l); }
   static APF_INLINE void set(double (*a)[width], int l, const Vec3 &u)
   {
@@ -86,7 +87,8 @@ struct Arrays {
 };
 static_assert(ContactList::n_constants == 16, "Arrays::at lists every constant");
 
-template <class Frame> void gather(const ContactList &list, const Bodies &b, int first, int n, Block &block)
+template <class Frame>
+void gather(const ContactList &list, const Bodies &b, int first, int n, Block &block)
 {
   constexpr int dim = Frame::planar ? 2 : 3;
   constexpr int spin0 = Frame::planar ? 2 : 0;
@@ -125,8 +127,8 @@ void scatter(const ContactList &list, const Bodies &b, int first, int n, const B
 }
 
 template <class Frame>
-ContactParts report(const ContactConstants &c, const Arrays &arrays, const Block &block, int k, int l,
-                    const ContactOutput<Frame> &out)
+ContactParts report(const ContactConstants &c, const Arrays &arrays, const Block &block, int k,
+                    int l, const ContactOutput<Frame> &out)
 {
   ContactParts p{};
   p.overlap = out.overlap;
@@ -167,8 +169,8 @@ ContactParts report(const ContactConstants &c, const Arrays &arrays, const Block
 // Everything that belongs to one lane. It must not share local structures with the loop around it:
 // "omp simd" would put those into memory, one per lane, and nothing would become vector code.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling, bool reports>
-APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l,
-                                                double dt, ContactParts *parts)
+APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l, double dt,
+                     ContactParts *parts)
 {
   using A = Access<Frame>;
   const ContactInput<Frame> in{A::vector(block.d, l), A::vector(block.v, l),
@@ -215,7 +217,8 @@ void kernel(ContactList &list, const Bodies &bodies, double dt, ContactParts *pa
                                                                  nullptr);
     } else {
       for (int l = 0; l < n; l++)
-        lane<Frame, adhesion, sliding, twisting, rolling, true>(arrays, block, first + l, l, dt, parts);
+        lane<Frame, adhesion, sliding, twisting, rolling, true>(arrays, block, first + l, l, dt,
+                                                                parts);
     }
     scatter<Frame, sliding || twisting || rolling>(list, bodies, first, n, block);
   }
@@ -228,16 +231,19 @@ ContactKernel with_rolling(const KernelChoice &c)
                    : kernel<Frame, adhesion, sliding, twisting, false>;
 }
 
-template <class Frame, bool adhesion, bool sliding> ContactKernel with_twisting(const KernelChoice &c)
+template <class Frame, bool adhesion, bool sliding>
+ContactKernel with_twisting(const KernelChoice &c)
 {
-  if constexpr (sliding && !Frame::planar)    // its limit is the friction limit: none without sliding
+  if constexpr (sliding &&
+                !Frame::planar)    // its limit is the friction limit: none without sliding
     if (c.twisting) return with_rolling<Frame, adhesion, sliding, true>(c);
   return with_rolling<Frame, adhesion, sliding, false>(c);
 }
 
 template <class Frame, bool adhesion> ContactKernel with_sliding(const KernelChoice &c)
 {
-  return c.sliding ? with_twisting<Frame, adhesion, true>(c) : with_twisting<Frame, adhesion, false>(c);
+  return c.sliding ? with_twisting<Frame, adhesion, true>(c)
+                   : with_twisting<Frame, adhesion, false>(c);
 }
 
 template <class Frame> ContactKernel with_adhesion(const KernelChoice &c)
@@ -245,12 +251,9 @@ template <class Frame> ContactKernel with_adhesion(const KernelChoice &c)
   return c.adhesion ? with_sliding<Frame, true>(c) : with_sliding<Frame, false>(c);
 }
 
-}    // namespace
-
 ContactKernel contact_kernel(const KernelChoice &choice)
 {
   return choice.planar ? with_adhesion<PlaneFrame>(choice) : with_adhesion<SpaceFrame>(choice);
 }
 
-}    // namespace APF_ISA
-}    // namespace apf
+}    // namespace apf::APF_ISA

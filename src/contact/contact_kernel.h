@@ -42,10 +42,10 @@ ContactKernel contact_kernel(const KernelChoice &choice);
 
 // The same, built for one instruction set; contact_kernel() takes the best this processor has.
 namespace baseline {
-ContactKernel contact_kernel(const KernelChoice &choice);
+  ContactKernel contact_kernel(const KernelChoice &choice);
 }
 namespace avx2 {
-ContactKernel contact_kernel(const KernelChoice &choice);
+  ContactKernel contact_kernel(const KernelChoice &choice);
 }
 
 }    // namespace apf

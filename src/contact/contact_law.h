@@ -18,9 +18,9 @@ struct Parts {
 };
 
 struct SpaceFrame {
-  using Vector = Vec3;      // positions, velocities, forces
-  using Spin = Vec3;        // angular velocities, torques
-  using Tangent = Vec3;     // vectors in the contact plane
+  using Vector = Vec3;     // positions, velocities, forces
+  using Spin = Vec3;       // angular velocities, torques
+  using Tangent = Vec3;    // vectors in the contact plane
   static constexpr bool planar = false;
 
   Vec3 n;
@@ -46,9 +46,9 @@ struct PlaneFrame {
 };
 
 template <class Frame> struct ContactInput {
-  typename Frame::Vector d;                // x_j - x_i
-  typename Frame::Vector v;                // v_i - v_j
-  typename Frame::Spin spin_i, spin_j;     // angular velocities
+  typename Frame::Vector d;               // x_j - x_i
+  typename Frame::Vector v;               // v_i - v_j
+  typename Frame::Spin spin_i, spin_j;    // angular velocities
 };
 
 template <class Frame> struct ContactMemory {
@@ -58,7 +58,7 @@ template <class Frame> struct ContactMemory {
 };
 
 template <class Frame> struct ContactOutput {
-  typename Frame::Vector force{};                // on i; j gets the opposite
+  typename Frame::Vector force{};    // on i; j gets the opposite
   typename Frame::Spin torque_i{}, torque_j{};
   double overlap = 0.0;
   // for ContactParts only; the compiler drops what nobody reads
@@ -70,8 +70,8 @@ template <class Frame> struct ContactOutput {
 // Carries a vector of the contact plane along with the pair: the smallest rotation that takes the
 // last normal to the present one, then the mean spin of the two bodies about it. Exact for finite
 // steps. n, last: normals; scale = 1 / (1 + n . last); cosine, sine of the spin angle.
-APF_INLINE Vec3 carried(const Vec3 &xi, const Vec3 &n, const Vec3 &last, double scale, double cosine,
-                        double sine)
+APF_INLINE Vec3 carried(const Vec3 &xi, const Vec3 &n, const Vec3 &last, double scale,
+                        double cosine, double sine)
 {
   const Vec3 tilted = xi - (dot(n, xi) * scale) * (n + last);
   const Vec3 tangent = tilted - dot(n, tilted) * n;    // rounding only
@@ -80,8 +80,9 @@ APF_INLINE Vec3 carried(const Vec3 &xi, const Vec3 &n, const Vec3 &last, double 
 
 // The whole law. dt = time since the last call; 0 evaluates without touching the history's length.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c, const ContactInput<Frame> &in,
-                                        double dt, ContactMemory<Frame> &memory)
+APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
+                                            const ContactInput<Frame> &in, double dt,
+                                            ContactMemory<Frame> &memory)
 {
   ContactOutput<Frame> out;
   const double distance = std::sqrt(dot(in.d, in.d));
@@ -147,9 +148,9 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c, const Con
       const double a = c.R * s2;
       const double share = 0.5 * a * a;    // eq (31)
       const double twist_rate = dot(in.spin_i - in.spin_j, frame.n);
-      const double torque = slider_force(share * kt + 1.0e-300, share * eta,
-                                         c.twist * (2.0 / 3.0) * a * limit, twist_rate, dt,
-                                         memory.twisting);
+      const double torque =
+          slider_force(share * kt + 1.0e-300, share * eta, c.twist * (2.0 / 3.0) * a * limit,
+                       twist_rate, dt, memory.twisting);
       out.twisting = torque;
       out.torque_i = out.torque_i + torque * frame.n;
       out.torque_j = out.torque_j - torque * frame.n;
@@ -160,8 +161,8 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c, const Con
     const double k = c.roll_k * s3 + 1.0e-300;
     const double limit = closed * c.roll_k * s3 * c.roll_limit;
     const auto v_roll = (-c.R) * frame.slip_of_spin(in.spin_i - in.spin_j);
-    const auto moment = slider_force(k, closed * c.roll_eta * s * std::sqrt(s), limit, v_roll, dt,
-                                     memory.rolling);
+    const auto moment =
+        slider_force(k, closed * c.roll_eta * s * std::sqrt(s), limit, v_roll, dt, memory.rolling);
     out.rolling = -frame.torque_of_force(moment);    // moment x n, eq (15)
     out.torque_i = out.torque_i + out.rolling;
     out.torque_j = out.torque_j - out.rolling;

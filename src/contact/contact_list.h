@@ -40,28 +40,28 @@ struct ContactHistory {
 
 // What a contact exerts now, by part; written when the kernel is asked to.
 struct ContactParts {
-  double overlap;           // r_i + r_j - distance                               [length]
-  double contact_radius;    // a                                                  [length]
-  double elastic;           // along the normal, > 0 repels                       [force]
-  double damping;           // along the normal, > 0 repels                       [force]
-  double sliding[3];        // tangential force on i                              [force]
-  double rolling[3];        // rolling torque on i                                [force length]
-  double twisting;          // torque on i along the normal                       [force length]
-  double force[3];          // total force on i                                   [force]
-  double elastic_energy;    // of the normal law, JKR::energy                     [energy]
-  double sliding_energy;    // of the sliding spring                              [energy]
-  double rolling_energy;    // of the rolling spring                              [energy]
-  double twisting_energy;   // of the twisting spring                             [energy]
+  double overlap;            // r_i + r_j - distance                               [length]
+  double contact_radius;     // a                                                  [length]
+  double elastic;            // along the normal, > 0 repels                       [force]
+  double damping;            // along the normal, > 0 repels                       [force]
+  double sliding[3];         // tangential force on i                              [force]
+  double rolling[3];         // rolling torque on i                                [force length]
+  double twisting;           // torque on i along the normal                       [force length]
+  double force[3];           // total force on i                                   [force]
+  double elastic_energy;     // of the normal law, JKR::energy                     [energy]
+  double sliding_energy;     // of the sliding spring                              [energy]
+  double rolling_energy;     // of the rolling spring                              [energy]
+  double twisting_energy;    // of the twisting spring                             [energy]
 };
 
 class ContactList {
  public:
   static constexpr int n_constants = sizeof(ContactConstants) / sizeof(double);
 
-  std::vector<int> i, j;                                              // rows of the two bodies
-  std::array<std::vector<double>, n_constants> constants;             // ContactConstants
-  std::array<std::vector<double>, ContactHistory::size> history;      // ContactHistory
-  std::vector<double> overlap;                                        // at the last update
+  std::vector<int> i, j;                                            // rows of the two bodies
+  std::array<std::vector<double>, n_constants> constants;           // ContactConstants
+  std::array<std::vector<double>, ContactHistory::size> history;    // ContactHistory
+  std::vector<double> overlap;                                      // at the last update
   std::vector<int> source;    // caller's mark: candidate or wall the contact came from
 
   int size() const { return static_cast<int>(i.size()); }
@@ -89,7 +89,9 @@ class ContactList {
 
   void clear()
   {
-    for_each_array([](auto &array) { array.clear(); });
+    for_each_array([](auto &array) {
+      array.clear();
+    });
   }
 
   ContactConstants constants_of(int k) const
@@ -136,7 +138,8 @@ class ContactList {
   }
 };
 
-static_assert(sizeof(ContactConstants) == ContactList::n_constants * sizeof(double), "doubles only");
+static_assert(sizeof(ContactConstants) == ContactList::n_constants * sizeof(double),
+              "doubles only");
 static_assert(sizeof(ContactHistory) == ContactHistory::size * sizeof(double), "doubles only");
 
 }    // namespace apf

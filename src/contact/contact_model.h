@@ -14,13 +14,13 @@ enum class Break { displacement, force };    // neck ends at -delta_C, or at the
 
 struct ContactModel {
   Interface surface{};
-  double alpha = 0.0;                   // normal damping                                       [-]
-  double mu = 0.0;                      // sliding friction; 0 = no tangential force            [-]
-  bool twisting = false;                // twisting resistance; its limit needs mu
-  double theta_crit = 0.0;              // critical rolling angle xi_crit / R; 0 = no rolling   [-]
-  double zeta = 0.0;                    // damping of rolling, share of critical                [-]
+  double alpha = 0.0;         // normal damping                                       [-]
+  double mu = 0.0;            // sliding friction; 0 = no tangential force            [-]
+  bool twisting = false;      // twisting resistance; its limit needs mu
+  double theta_crit = 0.0;    // critical rolling angle xi_crit / R; 0 = no rolling   [-]
+  double zeta = 0.0;          // damping of rolling, share of critical                [-]
   Break neck_end = Break::displacement;
-  double stiffness_scale = 1.0;         // f: E -> f E at the same sticking velocity            [-]
+  double stiffness_scale = 1.0;    // f: E -> f E at the same sticking velocity            [-]
 
   bool sliding() const { return mu > 0.0; }
   bool rolling() const { return theta_crit > 0.0; }
@@ -68,7 +68,8 @@ struct ContactConstants {
   double twist;            // 1 with twisting resistance, else 0                                [-]
   double roll_k;           // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
   double roll_limit;       // xi_crit = theta_crit R                                       [length]
-  double roll_eta;         // rolling damping: roll_eta s^(3/2)                        [force time/length]
+  double
+      roll_eta;    // rolling damping: roll_eta s^(3/2)                        [force time/length]
 
   static ContactConstants make(const ContactModel &model, const ContactBodies &bodies)
   {

@@ -21,9 +21,9 @@ namespace apf {
 constexpr double pi = 3.14159265358979323846;
 
 struct JKR {
-  double R;        // effective radius, r_i r_j / (r_i + r_j); r_i at a wall       [length]
-  double K;        // force scale (4/3) E R^2                                       [force]
-  double neck;     // m = sqrt(a/R) where the neck ends; 0 without adhesion         [-]
+  double R;       // effective radius, r_i r_j / (r_i + r_j); r_i at a wall       [length]
+  double K;       // force scale (4/3) E R^2                                       [force]
+  double neck;    // m = sqrt(a/R) where the neck ends; 0 without adhesion         [-]
 
   // E effective modulus, eq (16) [pressure]; gamma surface energy per surface [energy/length^2]
   static JKR make(double R, double E, double gamma)
@@ -33,8 +33,8 @@ struct JKR {
   }
 
   APF_INLINE double neck3() const { return neck * neck * neck; }
-  double pulloff_force() const { return 9.0 * K * neck3() * neck3(); }               // F_C, eq (41)
-  double pulloff_overlap() const { return 3.0 * R * neck * neck * neck * neck; }     // delta_C > 0
+  double pulloff_force() const { return 9.0 * K * neck3() * neck3(); }              // F_C, eq (41)
+  double pulloff_overlap() const { return 3.0 * R * neck * neck * neck * neck; }    // delta_C > 0
   double equilibrium_radius() const { return R * std::cbrt(36.0 * neck3() * neck3()); }    // a0
   double equilibrium_overlap() const
   {

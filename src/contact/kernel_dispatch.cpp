@@ -1,4 +1,4 @@
-// Chooses the build of the kernel for the processor it runs on, so that one binary is fast everywhere.
+// Chooses the build of the kernel for the processor it runs on: one binary is fast everywhere.
 // AVX-512 is left out: measured no faster than AVX2.
 
 #include "contact_kernel.h"

@@ -22,7 +22,7 @@ namespace apf {
 //   xi     spring elongation, updated
 template <class Displacement>
 APF_INLINE Displacement slider_force(double k, double eta, double limit, const Displacement &v,
-                                 double dt, Displacement &xi)
+                                     double dt, Displacement &xi)
 {
   const Displacement stretched = xi + dt * v;
   const Displacement trial = k * stretched + eta * v;

@@ -23,7 +23,7 @@ constexpr double largest_stable_kappa = 0.8;
 constexpr double accurate_kappa = 0.3;
 
 struct StiffestMode {
-  double frequency = 0.0;         // [1/time]
+  double frequency = 0.0;    // [1/time]
   const char *name = "normal";
 
   bool operator<(const StiffestMode &other) const { return frequency < other.frequency; }
@@ -43,11 +43,10 @@ inline StiffestMode stiffest_mode(const ContactModel &model, const ContactBodies
   const double kr = model.rolling() ? 4.0 * normal.pulloff_force() * restore * bodies.R : 0.0;
 
   StiffestMode worst;
-  for (const StiffestMode &mode :
-       {StiffestMode{std::sqrt(kn / bodies.m), "normal"},
-        StiffestMode{std::sqrt(3.5 * kt / bodies.m), "tangential"},
-        StiffestMode{std::sqrt(kq / bodies.I), "twisting"},
-        StiffestMode{std::sqrt(kr / bodies.I), "rolling"}})
+  for (const StiffestMode &mode : {StiffestMode{std::sqrt(kn / bodies.m), "normal"},
+                                   StiffestMode{std::sqrt(3.5 * kt / bodies.m), "tangential"},
+                                   StiffestMode{std::sqrt(kq / bodies.I), "twisting"},
+                                   StiffestMode{std::sqrt(kr / bodies.I), "rolling"}})
     worst = std::max(worst, mode);
   return worst;
 }

@@ -1,4 +1,4 @@
-// Walls of simple shape: distance of a point, positive in the fluid, and its foot point on the wall.
+// Walls of simple shape: distance of a point, positive in the fluid, and its foot on the wall.
 
 #ifndef APF_SURFACE_H
 #define APF_SURFACE_H
@@ -9,11 +9,11 @@ namespace apf {
 
 struct Surface {
   enum class Shape { plane, cylinder } shape;
-  int dim;          // plane: axis of its normal; cylinder: its axis; 0, 1, 2
-  double side;      // +1: fluid above the plane, outside the cylinder; -1: below, inside
-  double origin[2]; // plane: coordinate along dim; cylinder: axis position in the other two
-                    // dimensions, in the order x, y, z                                [length]
-  double radius;    // of the cylinder                                                 [length]
+  int dim;             // plane: axis of its normal; cylinder: its axis; 0, 1, 2
+  double side;         // +1: fluid above the plane, outside the cylinder; -1: below, inside
+  double origin[2];    // plane: coordinate along dim; cylinder: axis position in the other two
+                       // dimensions, in the order x, y, z                                [length]
+  double radius;       // of the cylinder                                                 [length]
 
   static Surface plane(int dim, double coordinate, double side)
   {

@@ -30,19 +30,24 @@ TwoBodies resting_pair(const ContactModel &model = rough_model())
   return two;
 }
 
-// Turns the held pair against each other about an axis by an angle (i forwards), in n steps.
+// Turns the held pair against each other about an axis by an angle (i forwards), in n steps, and
+// lets it rest.
 void counter_rotate(TwoBodies &two, int axis, double angle, int n = 1)
 {
   two.omega[axis] = 0.5 * angle;
   two.omega[3 + axis] = -0.5 * angle;
   for (int k = 0; k < n; k++) two.contact_forces(1.0 / n);
+  two.omega[axis] = two.omega[3 + axis] = 0.0;
+  two.contact_forces(1.0);
 }
 
-// Shifts i against j along an axis of the held pair, in n steps within unit time.
+// Shifts i against j along an axis of the held pair, in n steps, and lets it rest.
 void shear(TwoBodies &two, int axis, double distance, int n = 1)
 {
   two.v[axis] = distance;
   for (int k = 0; k < n; k++) two.contact_forces(1.0 / n);
+  two.v[axis] = 0.0;
+  two.contact_forces(1.0);
 }
 
 // One way for a sphere to move at a wall it rests on: along y, about its normal, about z.
@@ -126,36 +131,46 @@ TEST(Sliding, first_slope_is_mindlins)
   EXPECT_NEAR(-two.f[1] / xi / (8.0 * two.model.surface.G * 1.253780 * two.a0()), 1.0, 1e-6);
 }
 
-TEST(Sliding, slips_along_the_trial_force_and_not_along_the_velocity)
+TEST(Sliding, turns_gradually_into_the_direction_of_the_slip)
 {
   auto two = resting_pair();
   const double limit = 2.0 * mu * two.pulloff_force();
   const double xi_crit = limit / (8.0 * two.model.surface.G * two.a0());
   shear(two, 1, 0.5 * xi_crit);
-  two.v[1] = 0.0;
-  shear(two, 2, 2.0 * xi_crit);
-  const double size = std::hypot(0.5, 2.0);
-  EXPECT_NEAR(two.f[1] / limit, -0.5 / size, 1e-12);
-  EXPECT_NEAR(two.f[2] / limit, -2.0 / size, 1e-12);
-  // long slip along z turns the force there
-  shear(two, 2, 20.0 * xi_crit, 1000);
-  EXPECT_NEAR(two.f[1] / limit, 0.0, 1e-6);
-  EXPECT_NEAR(two.f[2] / limit, -1.0, 1e-12);
+  shear(two, 2, std::sqrt(0.75) * xi_crit, 1000);    // now at the limit, 30 degrees off the slip
+  EXPECT_NEAR(two.f[1] / limit, -0.5, 1e-6);
+  EXPECT_NEAR(two.f[2] / limit, -std::sqrt(0.75), 1e-6);
+  // tan(phi/2) falls as exp(-slip/xi_crit), the solution of perfect plasticity
+  shear(two, 2, 1.5 * xi_crit, 20000);
+  const double phi = 2.0 * std::atan(std::tan(pi / 12.0) * std::exp(-1.5));
+  EXPECT_NEAR(two.f[1] / limit, -std::sin(phi), 1e-4);
+  EXPECT_NEAR(two.f[2] / limit, -std::cos(phi), 1e-4);
+  EXPECT_NEAR(std::hypot(two.f[1], two.f[2]) / limit, 1.0, 1e-12);
 }
 
 TEST(Sliding, force_stays_when_the_velocity_stops_and_turns)
 {
   auto two = resting_pair();
   const double k = 8.0 * two.model.surface.G * two.a0(), limit = 2.0 * mu * two.pulloff_force();
-  const double step = 1e-4 * limit / k;
   shear(two, 1, 3.0 * limit / k, 100);
-  two.v[1] = 0.0;
-  two.contact_forces(1.0);
   EXPECT_NEAR(two.f[1] / limit, -1.0, 1e-12);
   for (int n = 1; n <= 100; n++) {    // and unloads elastically
-    shear(two, 1, -step);
+    shear(two, 1, -1e-4 * limit / k);
     EXPECT_NEAR(two.f[1] / limit, -1.0 + 1e-4 * n, 1e-11);
   }
+}
+
+TEST(Sliding, spring_without_dashpot_rings_on)
+{
+  auto two = TwoBodies::at_wall(rough_model(), 2.0e-6);
+  two.place(two.normal().equilibrium_overlap());
+  two.inertia[0] = 0.0;
+  const double rate = std::sqrt(8.0 * two.model.surface.G * two.a0() / two.mass[0]);
+  const double start = two.v[1] = 0.1 * 2.0 * mu * two.pulloff_force() / (two.mass[0] * rate);
+  const int periods = 5, steps = 40;    // omega dt = 0.16
+  for (int n = 0; n < periods * steps; n++) two.step(2.0 * pi / (steps * rate));
+  const double damping = std::log(start / two.v[1]) / (2.0 * pi * periods);    // share of critical
+  EXPECT_NEAR(damping, 0.0, 0.005);
 }
 
 TEST(Sliding, has_the_dashpot_of_the_normal_force)
@@ -271,21 +286,22 @@ TEST(Rolling, needs_adhesion)
 
 TEST(Rolling, damping_is_the_share_of_critical_that_was_asked)
 {
-  for (const double zeta : {0.02, 0.1, 0.3}) {
-    ContactModel model = sticky_model();
-    model.theta_crit = 0.5;
-    model.zeta = zeta;
-    auto two = resting_pair(model);
-    two.place(two.normal().equilibrium_overlap());
-    // I_eff d2 xi/dt2 = -R (4 F_C xi + eta dxi/dt)
-    const double rate = std::sqrt(4.0 * two.pulloff_force() * two.bodies.R / two.bodies.I);
-    const double period = 2.0 * pi / (rate * std::sqrt(1.0 - zeta * zeta));
-    two.omega[2] = 0.01 * rate;
-    two.omega[5] = -two.omega[2];
-    const double start = two.omega[2], dt = period / 2000;
-    for (int n = 0; n < 4000; n++) two.step(dt);
-    EXPECT_NEAR(std::log(start / two.omega[2]) / (2.0 * zeta * rate * period), 1.0, 0.05) << zeta;
-  }
+  for (const int steps : {2000, 60})    // a period
+    for (const double zeta : {0.05, 0.1, 0.3}) {
+      ContactModel model = sticky_model();
+      model.theta_crit = 0.5;
+      model.zeta = zeta;
+      auto two = resting_pair(model);
+      two.place(two.normal().equilibrium_overlap());
+      // I_eff d2 xi/dt2 = -R (4 F_C xi + eta dxi/dt)
+      const double rate = std::sqrt(4.0 * two.pulloff_force() * two.bodies.R / two.bodies.I);
+      const double period = 2.0 * pi / (rate * std::sqrt(1.0 - zeta * zeta));
+      const double start = two.omega[2] = 0.01 * rate;
+      two.omega[5] = -start;
+      for (int n = 0; n < 2 * steps; n++) two.step(period / steps);
+      EXPECT_NEAR(std::log(start / two.omega[2]) / (2.0 * zeta * rate * period), 1.0, 0.05)
+          << zeta << " in " << steps;
+    }
 }
 
 TEST(Friction, holds_at_99_percent_of_each_limit_and_slips_at_101)
@@ -356,4 +372,26 @@ TEST(Friction, sliding_impact_of_chung_and_ooi_test_4)    // doi:10.1007/s10035-
     const double spin = 2.5 * friction * (1.0 + e) * V * std::cos(theta) / r;
     EXPECT_NEAR(std::fabs(two.omega[2]) / spin, 1.0, 0.005) << degrees;
   }
+}
+
+TEST(Friction, oblique_hertz_impact_loses_at_most_the_energy_of_the_slip)
+{
+  const double r = 1.0e-3, V = 0.1;
+  for (const double friction : {0.1, 0.5, 10.0})
+    for (double theta = 0.1; theta < 1.5; theta += 0.2)
+      for (const double spin : {0.0, -2.0, 2.0}) {
+        auto model = hertz_model(1.0e9, 3.2e8);
+        model.mu = friction;
+        auto two = TwoBodies::at_wall(model, r);
+        two.place(0.0);
+        two.v[0] = V * std::cos(theta);
+        two.v[1] = V * std::sin(theta);
+        two.omega[2] = spin * V / r;
+        const double slip = two.v[1] + r * two.omega[2], before = two.kinetic_energy();
+        collide(two, two.contact_time(V) / 200);
+        // 1/2 (2/7) m slip^2; 2 % because levers are shorter than r by the overlap
+        const double lost = (before - two.kinetic_energy()) / (two.mass[0] * slip * slip / 7.0);
+        EXPECT_GT(lost, -1e-3) << friction << " at " << theta << " spin " << spin;
+        EXPECT_LT(lost, 1.0 + 0.02) << friction << " at " << theta << " spin " << spin;
+      }
 }

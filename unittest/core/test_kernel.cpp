@@ -327,6 +327,8 @@ TEST(Energy, of_springs_is_the_work_that_loads_them)
   two.omega[2] = 0.5 * roll;
   two.omega[5] = -0.5 * roll;
   two.contact_forces(1.0);
+  for (double *u : {two.v, two.omega}) std::fill(u, u + 6, 0.0);
+  two.contact_forces(1.0);
   EXPECT_NEAR(two.parts.sliding_energy / (-0.5 * two.f[1] * slip), 1.0, 1e-6);
   EXPECT_NEAR(two.parts.twisting_energy / (-0.5 * two.torque[0] * twist), 1.0, 1e-9);
   EXPECT_NEAR(two.parts.rolling_energy / (-0.5 * two.parts.rolling[2] * roll), 1.0, 1e-9);

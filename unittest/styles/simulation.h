@@ -72,8 +72,7 @@ class Simulation {
   {
     run("variable __value delete");
     run("variable __value equal " + expression);
-    const auto *result =
-        static_cast<double *>(lammps_extract_variable(handle, "__value", nullptr));
+    const auto *result = static_cast<double *>(lammps_extract_variable(handle, "__value", nullptr));
     const double number = *result;
     lammps_free(const_cast<double *>(result));
     return number;

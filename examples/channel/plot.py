@@ -1,0 +1,456 @@
+#!/usr/bin/python3
+"""Draws the report's figures from what in.channel wrote, and puts our numbers beside the report's.
+
+    plot.py [DIR]      DIR holds channel-phi*.aggregates, .profiles, .overlaps, .*.png (default .)
+
+Writes figure09.png, figure10.png, figure12.png, figure13.png, overlaps.png and compare.txt to DIR.
+Any number of phi will do. The report's numbers and their reading errors are in report.csv.
+Needs Debian's python3-numpy and python3-matplotlib.
+"""
+import argparse
+import csv
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+
+HERE = Path(__file__).resolve().parent
+COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#000000"]
+DASHES = ["-", "--", "-.", (0, (1, 1.2))]
+QUANTITIES = {
+    "in_aggregates": "particles in aggregates / all",
+    "aggregates": "number of aggregates",
+    "mean_size": "mean aggregate size",
+    "wall_in_aggregates": "particles in wall aggregates / all",
+    "wall_aggregates": "number of wall aggregates",
+    "wall_mean_size": "mean wall aggregate size",
+    "mean_size/wall_mean_size": "mean size, all / wall",
+    "centre": "c / mean c, |y| < 0.1 L",
+    "at_wall": "c / mean c, outermost 0.01 L",
+    "still_layer": "layer with v < 0.05 U [L]",
+}
+
+
+def stop(path, reason):
+    """Ends with exit code 1 and a message that names the file."""
+    sys.exit(f"plot.py: {path}: {reason}")
+
+
+# ---------------------------------------------------------------------- reading
+
+
+def read_input():
+    """Numbers of in.channel, in SI: dict of its literal variables, and the words after `amap`."""
+    path = HERE / "in.channel"
+    if not path.is_file():
+        stop(path, "missing; plot.py takes L, U and d from it")
+    text = path.read_text()
+    found = re.findall(r"^variable +(\w+) +(?:equal|index) +(\d[\d.]*(?:e[+-]?\d+)?)\s", text, re.M)
+    return {name: float(value) for name, value in found}, re.search(r"amap (.*)", text)[1].split()
+
+
+def read_report():
+    """Rows of report.csv as dicts; low, value, high are floats, nan where the report has none."""
+    with open(HERE / "report.csv", encoding="ascii") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    for row in rows:
+        row.update({key: float(row[key] or "nan") for key in ("low", "value", "high")})
+    return rows
+
+
+def read_rows(path):
+    """Rows of numbers of a file that LAMMPS's fix ave/* wrote."""
+    if not path.is_file():
+        stop(path, "missing; in.channel writes it")
+    text = path.read_text()
+    if not text.endswith("\n"):
+        stop(path, "its last line is cut off; was the run killed, or is it writing?")
+    try:
+        return [[float(word) for word in line.split()]
+                for line in text.splitlines() if not line.startswith("#")]
+    except ValueError as error:
+        stop(path, f"not a number: {error}")
+
+
+def read_history(path):
+    """Aggregates over time: dict of arrays, named as in the file's second line; t in L/U."""
+    rows = read_rows(path)
+    names = path.read_text().splitlines()[1].lstrip("# ").split()
+    names = [name.split("[")[0] for name in names]
+    if len(rows) < 2:
+        stop(path, "holds no time after t = 0 yet")
+    for row in rows:
+        if len(row) != len(names):
+            stop(path, f"step {row[0]:.0f} has {len(row)} of {len(names)} columns")
+    return dict(zip(names, np.array(rows).T))
+
+
+def read_blocks(path, columns):
+    """Blocks of fix ave/chunk or fix ave/histo: list of (step, total count, rows x columns)."""
+    rows, blocks = read_rows(path), []
+    while rows:
+        step, bins, total = rows[0][0], int(rows[0][1]), rows[0][2]
+        block, rows = rows[1:bins + 1], rows[bins + 1:]
+        if len(block) != bins or any(len(row) != columns for row in block):
+            stop(path, f"the block of step {step:.0f} lacks some of its {bins} bins")
+        blocks.append((step, total, np.array(block)))
+    if not any(step > 0 for step, _, _ in blocks):
+        stop(path, "holds no block after t = 0; in.channel writes one at t = 1, 2, ...")
+    return blocks
+
+
+@dataclass
+class Run:
+    """One run of in.channel. Times in L/U, y in L, v in U, c as area fraction, overlaps in r."""
+    phi: str
+    history: dict     # name -> values, over history["t"]
+    profiles: dict    # "t", "centre", "at_wall", "still_layer" over time; y, c, v of the last
+    overlaps: tuple   # t, bin edges, share of the contacts
+    picture: tuple    # t, image
+
+    @property
+    def t(self):
+        """Time reached, in L/U."""
+        return self.history["t"][-1]
+
+
+def profile(rows, si):
+    """y [L], area fraction c and streamwise velocity v [U] of one block; v is nan in empty bins."""
+    y = rows[:, 1] / si["L"]
+    c = rows[:, 3] * np.pi / 4 * si["d"]**2
+    v = np.where(rows[:, 2] > 0, rows[:, 4] / si["U"], np.nan)
+    return y, c, v
+
+
+def still_layer(v, width):
+    """Thickness of the layer with v < 0.05 U, mean of both walls, in the unit of the bin width."""
+    moving = np.flatnonzero(~(v < 0.05))
+    return width * (len(v) if len(moving) == 0 else (moving[0] + len(v) - 1 - moving[-1]) / 2)
+
+
+def read_profiles(path, unit, si):
+    """Last profile, and its figures of merit over time. `unit` is the steps in one L/U."""
+    blocks = read_blocks(path, 5)
+    out = {"t": np.array([step / unit for step, _, _ in blocks]), "particles": round(blocks[-1][1])}
+    series = []
+    for _, _, rows in blocks:
+        y, c, v = profile(rows, si)
+        series.append((c[abs(y) < 0.1].mean() / c.mean(), (c[0] + c[-1]) / 2 / c.mean(),
+                       still_layer(v, y[1] - y[0])))
+    out.update(zip(("centre", "at_wall", "still_layer"), np.array(series).T))
+    return {**out, "y": y, "c": c, "v": v}
+
+
+def read_overlaps(path, unit, si):
+    """Time [L/U], bin edges [r] and share of contacts per bin of the last histogram."""
+    step, _, rows = read_blocks(path, 4)[-1]
+    centres = rows[:, 1] / (si["d"] / 2)
+    edges = np.append(centres, 2 * centres[-1] - centres[-2]) - (centres[1] - centres[0]) / 2
+    return step / unit, edges, rows[:, 3]
+
+
+def read_picture(folder, phi, unit):
+    """Time [L/U] and pixels of the last picture."""
+    paths = sorted(folder.glob(f"channel-phi{phi}.[0-9]*.png"))
+    if not paths:
+        stop(folder / f"channel-phi{phi}.*.png", "missing; in.channel writes them")
+    try:
+        return int(paths[-1].suffixes[-2][1:]) / unit, plt.imread(paths[-1])
+    except (OSError, SyntaxError, ValueError) as error:
+        stop(paths[-1], f"not a whole picture: {error}")
+
+
+def read_runs(folder, si):
+    """All runs in the folder, by phi."""
+    runs = []
+    for path in folder.glob("channel-phi*.aggregates"):
+        phi, stem = path.stem.removeprefix("channel-phi"), str(path.with_suffix(""))
+        history = read_history(path)
+        unit = history["step"][-1] / history["t"][-1]
+        profiles = read_profiles(Path(stem + ".profiles"), unit, si)
+        for name in ("in_aggregates", "wall_in_aggregates"):
+            history[name] = history[name] / profiles["particles"]
+        runs.append(Run(phi, history, profiles, read_overlaps(Path(stem + ".overlaps"), unit, si),
+                        read_picture(folder, phi, unit)))
+    if not runs:
+        stop(folder / "channel-phi*.aggregates", "missing; run in.channel with -var dir first")
+    return sorted(runs, key=lambda run: float(run.phi))
+
+
+# ---------------------------------------------------------------------- comparing
+
+
+def average(run, quantity, end):
+    """Mean and standard deviation over the last fifth of 0 < t < end; of P/Q too."""
+    if "/" in quantity:
+        return divide(*(average(run, part, end) for part in quantity.split("/")))
+    source = run.history if quantity in run.history else run.profiles
+    known = source["t"] <= end + 1e-6
+    recent = known & (source["t"] >= 0.8 * end - 1e-6)
+    values = source[quantity][recent] if any(recent) else source[quantity][known][-1:]
+    return values.mean(), values.std(ddof=1) if len(values) > 1 else np.nan
+
+
+def divide(a, b):
+    """Ratio of two (mean, standard deviation), taken as independent; nan if b is 0."""
+    if b[0] == 0 or a[0] == 0:
+        return (np.nan if b[0] == 0 else 0.0), np.nan
+    return a[0] / b[0], abs(a[0] / b[0]) * np.hypot(a[1] / a[0], b[1] / b[0])
+
+
+def verdict(row, mean, deviation, reached):
+    """Words for one row: too short a run, no number to compare with, or agreement."""
+    if reached < float(row["for_t"].strip("=> ")) - 1e-6:
+        return f"run ended at t = {reached:g}: the report's value is for t {row['for_t']}"
+    if np.isnan(mean):
+        return "ours is not defined: no such aggregates"
+    if np.isnan(row["low"]) and np.isnan(row["high"]):
+        return "no number in the report"
+    off = outside(row, mean)
+    if off == 0:
+        return "agrees within the reading error"
+    spread = np.nan_to_num(deviation)
+    return "agrees within our standard deviation" if abs(off) <= spread else "differs"
+
+
+def outside(row, mean):
+    """How far the mean lies above (> 0) or below (< 0) the report's range; 0 inside."""
+    if mean < row["low"]:
+        return mean - row["low"]
+    return mean - row["high"] if mean > row["high"] else 0.0
+
+
+def report_text(row):
+    """The report's value with its reading error, or its range."""
+    low, value, high = (row[key] for key in ("low", "value", "high"))
+    if not np.isnan(value):
+        return f"{value:g} +- {high - value:.2g}"
+    if np.isnan(low):
+        return "in words"
+    if np.isnan(high):
+        return f"> {low:g}"
+    return f"{low:g} .. {high:g}" if low > 0 else f"< {high:g}"
+
+
+def compare(report, runs):
+    """Lines of the table report / ours, for the cases that were run."""
+    by_phi, table = {run.phi: run for run in runs}, []
+    for row in report:
+        if not all(phi in by_phi for phi in row["case"].split("/")):
+            continue
+        parts = [by_phi[phi] for phi in row["case"].split("/")]
+        reached = min(run.t for run in parts)
+        values = [average(run, row["quantity"], reached) for run in parts]
+        mean, deviation = values[0] if len(values) == 1 else divide(*values)
+        spread = "one sample" if np.isnan(deviation) else f"{deviation:.2g}"
+        known = not np.isnan(row["value"])
+        table.append((row["case"], row["figure"], QUANTITIES[row["quantity"]], report_text(row),
+                      f"{mean:.4g} ({spread})",
+                      f"{mean - row['value'] if known else outside(row, mean):+.3g}",
+                      f"{reached:g}", verdict(row, mean, deviation, reached), row["words"]))
+    return table
+
+
+def format_table(table):
+    """The table as text with aligned columns."""
+    head = ("phi", "fig.", "quantity", "report", "ours (std)", "diff.", "t", "verdict",
+            "the report says")
+    widths = [max(len(row[k]) for row in [head, *table]) for k in range(len(head))]
+    lines = ["  ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip()
+             for row in [head, *table]]
+    note = ("ours: mean and standard deviation over the last fifth of the run. diff.: ours less\n"
+            "the report's value, or how far ours is outside its range. t: time reached, in L/U.\n")
+    return "\n".join([lines[0], "-" * max(map(len, lines)), *lines[1:]]) + "\n\n" + note
+
+
+# ---------------------------------------------------------------------- drawing
+
+
+def style(phi):
+    """Colour and dash of a phi; those of the report's four never change."""
+    cases = ["1.5", "15", "50", "150"]
+    k = cases.index(phi) if phi in cases else 4 + round(float(phi)) % 3
+    return {"color": COLOURS[k], "linestyle": DASHES[k % 4]}
+
+
+def save(figure, path):
+    """Writes a figure."""
+    figure.savefig(path, dpi=200, bbox_inches="tight", facecolor="white")
+    plt.close(figure)
+
+
+def picture_extent(image):
+    """Extent of the picture in L, from its walls: grey bars over 0 < x < 5 L at y = +-L/2."""
+    inked = image[..., :3].min(axis=2) < 0.9
+    rows = np.flatnonzero(inked.mean(axis=1) > 0.9)
+    if len(rows) == 0:
+        return None
+    columns = np.flatnonzero(inked[rows[len(rows) // 4]])
+    low, high = (part.mean() for part in np.split(rows, [np.argmax(np.diff(rows)) + 1]))
+    scale, middle = 5 / (columns[-1] - columns[0] + 1), (low + high) / 2
+    return (-columns[0] * scale, (image.shape[1] - columns[0]) * scale,
+            (middle - image.shape[0]) * scale, middle * scale)
+
+
+def size_colours(words):
+    """Colour map and norm of the pictures, from the words after `amap` in in.channel."""
+    low, high = float(words[0]), float(words[1])
+    ends = {"min": low, "max": high}
+    stops = [((ends[at] if at in ends else float(at)) - low) / (high - low) for at in words[5::2]]
+    colours = LinearSegmentedColormap.from_list("size", list(zip(stops, words[6::2])))
+    return plt.cm.ScalarMappable(Normalize(low, high), colours)
+
+
+def draw_pictures(runs, amap, path):
+    """Figure 9: particles at the last time of each phi, coloured by aggregate size."""
+    figure, axes = plt.subplots(len(runs), 1, figsize=(10, 2.25 * len(runs) + 0.9), squeeze=False,
+                                layout="constrained", sharex=True)
+    for axis, run in zip(axes[:, 0], runs):
+        t, image = run.picture
+        extent = picture_extent(image)
+        axis.imshow(image, extent=extent, aspect="equal", interpolation="antialiased")
+        axis.set_title(rf"$\phi$ = {run.phi},  t = {t:g} L/U", loc="left")
+        axis.set_yticks([-0.5, 0, 0.5] if extent else [])
+        axis.set_ylabel("y / L")
+        axis.spines[:].set_visible(False)
+    axes[-1, 0].set_xlabel("x / L   (air flows to the right)")
+    bar = figure.colorbar(size_colours(amap), ax=axes, location="bottom", shrink=0.5, aspect=40,
+                          pad=0.02, extend="max", ticks=[1, 4, 8, 12, 16, 20])
+    bar.set_label("particles in the aggregate")
+    save(figure, path)
+
+
+def draw_profile(axes, run, words):
+    """One row of figure 10: c on the left, v on the right."""
+    p, look = run.profiles, {"color": style(run.phi)["color"], "linewidth": 1.3}
+    y = np.linspace(-0.5, 0.5, 201)
+    axes[0].plot(p["y"], p["c"], **look)
+    axes[0].axhline(p["c"].mean(), color="0.5", linewidth=0.9, linestyle=":", label="mean")
+    axes[1].plot(y, 1 - 4 * y**2, "--", color="0.45", linewidth=1, label="air, 1 - 4 (y/L)$^2$")
+    axes[1].plot(p["y"], p["v"], **look, label="particles")
+    axes[0].set_title(rf"$\phi$ = {run.phi},  t = {p['t'][-1]:g} L/U", loc="left")
+    if words:
+        axes[0].text(0.5, 0.95, words, transform=axes[0].transAxes, ha="center", va="top",
+                     fontsize=9, style="italic")
+
+
+def draw_profiles(runs, report, path):
+    """Figure 10: area fraction and mean streamwise velocity across the channel."""
+    figure, axes = plt.subplots(len(runs), 2, figsize=(9, 2.15 * len(runs) + 0.5), sharex=True,
+                                sharey="col", squeeze=False, layout="constrained")
+    for row, run in zip(axes, runs):
+        said = [r for r in report if r["figure"] == "10" and r["case"] == run.phi]
+        stills = [r for r in said if r["quantity"] == "still_layer"]
+        words = [f"report, t {r['for_t']}: {r['words']}" for r in said if r not in stills]
+        draw_profile(row, run, "\n".join(words))
+        for r in stills:
+            label = f"report, t {r['for_t']}:\n{r['words'].replace('of', 'L of')}"
+            row[1].axvspan(-0.5, r["value"] - 0.5, color="0.87", zorder=0, label=label)
+            row[1].axvspan(0.5 - r["value"], 0.5, color="0.87", zorder=0)
+        row[0].set_ylabel("c (area fraction)")
+        row[1].set_ylabel("v / U")
+        row[1].legend(fontsize=8, loc="lower center", frameon=False)
+    top = max(run.profiles["c"].max() for run in runs)
+    axes[0, 0].set(xlim=(-0.5, 0.5), ylim=(0, max(0.5, 1.05 * top)))
+    axes[0, 1].set_ylim(-0.05, 1.15)
+    for axis in axes[-1]:
+        axis.set_xlabel("y / L")
+    save(figure, path)
+
+
+def draw_values(axis, rows, scale, highest):
+    """The report's values: dashed lines with labels, drawn in the colour of their phi."""
+    for row in (row for row in rows if not np.isnan(row["value"])):
+        value, look = row["value"] * scale, style(row["case"])["color"]
+        above = row["value"] == highest
+        axis.axhline(value, color=look, linewidth=0.9, linestyle=(0, (6, 3)))
+        axis.annotate(f"report, t {row['for_t']}: {100 * row['value']:g} %", (0.02, value),
+                      xycoords=("axes fraction", "data"), xytext=(0, 2 if above else -2),
+                      textcoords="offset points", va="bottom" if above else "top", fontsize=9,
+                      color=look)
+
+
+def draw_ranges(axis, rows):
+    """The report's ranges: bars at the right edge, each in the colour of its phi."""
+    rows = [row for row in rows if np.isnan(row["value"])]
+    for k, row in enumerate(rows):
+        axis.plot([1.03 + 0.035 * k] * 2, [row["low"], row["high"]], clip_on=False, linewidth=4,
+                  solid_capstyle="butt", color=style(row["case"])["color"],
+                  transform=axis.get_yaxis_transform())
+    if rows:
+        axis.text(1.03 + 0.035 * len(rows), 0.5, f"report's range, t {rows[0]['for_t']}",
+                  rotation=90, transform=axis.transAxes, va="center", fontsize=9)
+
+
+def draw_aggregates(runs, report, figure_number, names, tops, path):
+    """Figures 12, 13: particles in aggregates, number of aggregates, mean size, over time.
+
+    `names` are the three quantities, `tops` the ends of the report's axes.
+    """
+    figure, axes = plt.subplots(1, 3, figsize=(12, 3.9), layout="constrained")
+    total = runs[0].profiles["particles"]
+    for axis, name, top, scale in zip(axes, names, tops, (total, 1, 1)):
+        for run in runs:
+            axis.plot(run.history["t"], scale * run.history[name], linewidth=1.5, **style(run.phi),
+                      label=rf"$\phi$ = {run.phi}")
+            top = max(top, 1.05 * scale * run.history[name].max())
+        rows = [row for row in report if row["figure"] == figure_number and row["quantity"] == name
+                and row["case"] in [run.phi for run in runs]]
+        draw_values(axis, rows, scale, max(row["value"] for row in rows) if rows else 0)
+        draw_ranges(axis, rows)
+        axis.set(xlabel="t  [L/U]", xlim=(0, max(run.t for run in runs)), ylim=(0, top))
+    wall = "wall-attached " if figure_number == "13" else ""
+    axes[0].set_ylabel(rf"$n_P$, particles in {wall}aggregates, of {total}")
+    axes[1].set_ylabel(rf"$N_A$, number of {wall}aggregates")
+    axes[2].set_ylabel(rf"$n_{{P/A}}$, particles per {wall}aggregate")
+    axes[1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(runs), frameon=False,
+                   handlelength=2.6)
+    save(figure, path)
+
+
+def draw_overlaps(runs, stiffness, path):
+    """Overlaps of pairs that touch, in particle radii, and the JKR overlap of a pair at rest."""
+    figure, axis = plt.subplots(figsize=(7, 4), layout="constrained")
+    for run in runs:
+        t, edges, share = run.overlaps
+        look, rest = style(run.phi), 2 / 3 * (9 * np.pi * float(run.phi) / (4 * stiffness))**(2 / 3)
+        axis.stairs(share, edges, linewidth=1.4, **look,
+                    label=rf"$\phi$ = {run.phi}, t = {t:g} L/U")
+        axis.axvline(rest, color=look["color"], linewidth=0.9, linestyle=":")
+    axis.plot([], [], ":", color="0.3", linewidth=0.9,
+              label=rf"pair at rest, $\lambda$ = {stiffness:g}")
+    axis.set(yscale="log", ylim=(1e-5, 2), xlim=(0, edges[-1]), ylabel="share of contacts per bin",
+             xlabel="overlap / particle radius (two particles that touch)")
+    axis.legend(fontsize=9, frameon=False)
+    save(figure, path)
+
+
+def main():
+    """Reads the folder, draws, prints and writes the table."""
+    parser = argparse.ArgumentParser(description="Draws the report's figures of the channel.")
+    parser.add_argument("dir", nargs="?", default=".", type=Path, help="folder with the output")
+    folder = parser.parse_args().dir
+    si, amap = read_input()
+    report, runs = read_report(), read_runs(folder, si)
+    plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "axes.grid": False})
+    draw_pictures(runs, amap, folder / "figure09.png")
+    draw_profiles(runs, report, folder / "figure10.png")
+    names = ["in_aggregates", "aggregates", "mean_size"]
+    draw_aggregates(runs, report, "12", names, (8800, 2000, 25), folder / "figure12.png")
+    draw_aggregates(runs, report, "13", ["wall_" + name for name in names], (2200, 200, 25),
+                    folder / "figure13.png")
+    draw_overlaps(runs, si["lambda"], folder / "overlaps.png")
+    text = format_table(compare(report, runs))
+    (folder / "compare.txt").write_text(text)
+    print(text, end="")
+
+
+if __name__ == "__main__":
+    main()
