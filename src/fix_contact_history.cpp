@@ -35,6 +35,12 @@ void FixContactHistory::init()
   if (!pair)
     error->all(FLERR, Error::NOLASTLINE,
                "Fix contact/history is internal to pair style granular/adhesive: use that instead");
+  const auto *respa = dynamic_cast<Respa *>(update->integrate);
+  if (respa && respa->level_pair < 0)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair granular/adhesive acts on one level of run_style respa: use keyword pair, not "
+               "inner, middle, outer or hybrid");
+
   // histories must stand with their atoms before another fix moves these to other ranks
   for (const auto &fix : modify->get_fix_list()) {
     if (fix == this) break;

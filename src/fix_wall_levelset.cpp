@@ -6,11 +6,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
-#include "force.h"
-#include "lammps_version.h"
-#include "math_const.h"
 #include "modify.h"
-#include "pair.h"
 #include "respa.h"
 #include "update.h"
 
@@ -44,7 +40,7 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   dynamic_group_allow = 1;
 
   int iarg = 3;
-  parse_surfaces(narg, arg, iarg);
+  surfaces = parse_surfaces(lmp, command, narg, arg, iarg);
   coefficient = parse_contact(lmp, command, narg, arg, iarg, 0);
   if (iarg < narg) {
     if (strcmp(arg[iarg], "zone") == 0)
@@ -57,62 +53,6 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   choice.planar = domain->dimension == 2;
   choice.include(coefficient.model);
   kernel = apf::contact_kernel(choice);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixWallLevelset::parse_surfaces(int narg, char **arg, int &iarg)
-{
-  auto dimension = [&](const char *shape) {
-    const std::string word = arg[iarg];
-    if (word != "x" && word != "y" && word != "z")
-      error->all(FLERR, iarg, "{} {} dimension must be x, y or z, got {}", command, shape, word);
-    iarg++;
-    return word[0] - 'x';
-  };
-  auto number = [&]() {
-    return utils::numeric(FLERR, arg[iarg++], false, lmp);
-  };
-
-  if (narg < 4) utils::missing_cmd_args(FLERR, "fix wall/levelset", error);
-  const std::string shape = arg[iarg++];
-  if (shape == "plane") {
-    if (narg < iarg + 3) utils::missing_cmd_args(FLERR, "fix wall/levelset plane", error);
-    const int dim = dimension("plane");
-    if (domain->periodicity[dim])
-      error->all(FLERR, iarg - 1, "{} plane needs a box that is not periodic in {}", command,
-                 arg[iarg - 1]);
-    const int first = iarg;
-    for (const double side : {1.0, -1.0}) {
-      if (strcmp(arg[iarg], "NULL") == 0)
-        iarg++;
-      else
-        surfaces.push_back(apf::Surface::plane(dim, number(), side));
-    }
-    if (surfaces.empty())
-      error->all(FLERR, first, "{} plane needs LO or HI, both are NULL", command);
-    if (surfaces.size() == 2 && surfaces[0].origin[0] >= surfaces[1].origin[0])
-      error->all(FLERR, first, "{} plane LO must be < HI, got {} and {}", command, arg[first],
-                 arg[first + 1]);
-  } else if (shape == "cylinder") {
-    if (narg < iarg + 5) utils::missing_cmd_args(FLERR, "fix wall/levelset cylinder", error);
-    const int dim = dimension("cylinder");
-    if (domain->dimension == 2 && dim != 2)
-      error->all(FLERR, iarg - 1, "{} cylinder axis must be z in 2 dimensions, got {}", command,
-                 arg[iarg - 1]);
-    const double c1 = number(), c2 = number(), radius = number();
-    if (radius <= 0.0)
-      error->all(FLERR, iarg - 1, "{} cylinder radius must be > 0, got {}", command, arg[iarg - 1]);
-    const std::string side = arg[iarg++];
-    if (side != "inside" && side != "outside")
-      error->all(FLERR, iarg - 1, "{} cylinder side of the fluid must be inside or outside, got {}",
-                 command, side);
-    surfaces.push_back(apf::Surface::cylinder(dim, c1, c2, radius, side == "inside" ? -1.0 : 1.0));
-  } else if (shape == "file") {
-    error->all(FLERR, iarg - 1, "{} file is not available in this version", command);
-  } else {
-    error->all(FLERR, iarg - 1, "{} shape must be plane or cylinder, got {}", command, shape);
-  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -422,65 +362,14 @@ void *FixWallLevelset::extract(const char *name, int &dim)
   return count_of_atom.data();
 }
 
-/* ----------------------------------------------------------------------
-   what dump image draws: a line in the plane, triangles in space
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 int FixWallLevelset::image(int *&objects, double **&values)
 {
-  image_objects.clear();
-  image_values.clear();
-  image_rows.clear();
-  for (const auto &surface : surfaces) add_image(surface);
-  for (auto &row : image_values) image_rows.push_back(row.data());
-  objects = image_objects.data();
-  values = image_rows.data();
-  return static_cast<int>(image_objects.size());
-}
-
-void FixWallLevelset::add_image(const apf::Surface &surface)
-{
-  const double *lo = domain->boxlo, *hi = domain->boxhi;
-  using Point = std::array<double, 3>;
-  auto add = [&](int object, const Point &a, const Point &b, const Point &c) {
-    image_objects.push_back(object);
-    image_values.push_back({1.0, a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]});
-  };
-  // a quadrilateral, or in the plane its edge from a to b
-  auto patch = [&](const Point &a, const Point &b, const Point &c, const Point &d) {
-    if (domain->dimension == 2) {
-      add(Graphics::LINE, a, b, b);
-    } else {
-      add(Graphics::TRI, a, b, c);
-      add(Graphics::TRI, a, c, d);
-    }
-  };
-
-  const bool flat = domain->dimension == 2;
-  if (surface.shape == apf::Surface::Shape::plane) {
-    const int n = surface.dim, d1 = (n == 0) ? 1 : 0, d2 = (n == 2) ? 1 : 2;
-    auto corner = [&](bool far1, bool far2) {
-      Point p;
-      p[n] = surface.origin[0];
-      p[d1] = far1 ? hi[d1] : lo[d1];
-      p[d2] = flat ? 0.0 : (far2 ? hi[d2] : lo[d2]);
-      return p;
-    };
-    patch(corner(false, false), corner(true, false), corner(true, true), corner(false, true));
-    return;
-  }
-  constexpr int facets = 48;
-  const int n = surface.dim, d1 = (n == 0) ? 1 : 0, d2 = (n == 2) ? 1 : 2;
-  auto rim = [&](int k, bool far) {
-    const double angle = MathConst::MY_2PI * k / facets;
-    Point p;
-    p[n] = flat ? 0.0 : (far ? hi[n] : lo[n]);
-    p[d1] = surface.origin[0] + surface.radius * cos(angle);
-    p[d2] = surface.origin[1] + surface.radius * sin(angle);
-    return p;
-  };
-  for (int k = 0; k < facets; k++)
-    patch(rim(k, false), rim(k + 1, false), rim(k + 1, true), rim(k, true));
+  drawn = std::make_unique<WallImage>(surfaces, domain);
+  objects = drawn->objects.data();
+  values = drawn->rows.data();
+  return static_cast<int>(drawn->objects.size());
 }
 
 /* ---------------------------------------------------------------------- */

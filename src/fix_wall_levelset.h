@@ -11,9 +11,9 @@ FixStyle(wall/levelset,FixWallLevelset);
 
 #include "contact/contact_kernel.h"
 #include "contact_keywords.h"
-#include "wall/surface.h"
+#include "wall_surfaces.h"
 
-#include <array>
+#include <memory>
 
 namespace LAMMPS_NS {
 
@@ -64,18 +64,14 @@ class FixWallLevelset : public FixContacts {
   double all_loads[9] = {};                 // the same over all ranks, contacts, begun, ended
   bool loads_summed = false;
   std::vector<int> count_of_atom;    // for other styles: contacts of each atom
-  std::vector<int> image_objects;
-  std::vector<std::array<double, 10>> image_values;
-  std::vector<double *> image_rows;
+  std::unique_ptr<WallImage> drawn;
 
-  void parse_surfaces(int, char **, int &);
   void find_again();
   void detect();
   void close(int i, int surface, const apf::ContactHistory &);
   void remove_ended();
   void gather();
   void scatter(int vflag);
-  void add_image(const apf::Surface &);
 };
 
 }    // namespace LAMMPS_NS

@@ -73,7 +73,11 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
     build_candidates();
   }
   store->synchronize();
-  detect();
+  // contacts open with first touch and end with the neck
+  if (candidates.size() > 0)
+    candidates.detect(&atom->x[0][0], [this](int k) {
+      close(k, apf::ContactHistory());
+    });
 
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
@@ -100,11 +104,7 @@ void PairGranularAdhesive::build_candidates()
 {
   const double *radius = atom->radius;
   const tagint *tag = atom->tag;
-  auto &c = candidates;
-  c.i.clear();
-  c.j.clear();
-  c.touch2.clear();
-  c.closed.clear();
+  candidates.clear();
   contacts.clear();
 
   for (int ii = 0; ii < list->inum; ii++) {
@@ -113,32 +113,12 @@ void PairGranularAdhesive::build_candidates()
     for (int jj = 0; jj < list->numneigh[i]; jj++) {
       if (force->special_lj[sbmask(jlist[jj])] == 0.0) continue;
       const int j = jlist[jj] & NEIGHMASK;
-      const double sum = radius[i] + radius[j];
-      c.i.push_back(i);
-      c.j.push_back(j);
-      c.touch2.push_back(sum * sum);
-      c.closed.push_back(0);
+      const int k = candidates.add(i, j, radius[i] + radius[j]);
       const auto *history = store->find(i, tag[j]);
-      if (history) close(static_cast<int>(c.i.size()) - 1, *history);
+      if (history) close(k, *history);
     }
   }
   rebuild = false;
-}
-
-/* ----------------------------------------------------------------------
-   pairs that touch now: contacts open with first touch and end with the neck
-------------------------------------------------------------------------- */
-
-void PairGranularAdhesive::detect()
-{
-  const double *const *x = atom->x;
-  const auto &c = candidates;
-  const int n = static_cast<int>(c.i.size());
-  for (int k = 0; k < n; k++) {
-    const double *xi = x[c.i[k]], *xj = x[c.j[k]];
-    const double dx = xj[0] - xi[0], dy = xj[1] - xi[1], dz = xj[2] - xi[2];
-    if (dx * dx + dy * dy + dz * dz <= c.touch2[k] && !c.closed[k]) close(k, apf::ContactHistory());
-  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -309,42 +289,10 @@ void PairGranularAdhesive::init_style()
         modify->replace_fix(id_store + "_PLACE", id_store + " all contact/history", 1));
     store->serve(this);
   }
-  find_radii();
+  sizes = TypeSizes::find(lmp, "Pair granular/adhesive");
   neck_max = 0.0;    // init_one finds it
   choice = apf::KernelChoice();
   choice.planar = domain->dimension == 2;
-}
-
-/* ----------------------------------------------------------------------
-   smallest and largest radius of each type, those of particles to come included
-------------------------------------------------------------------------- */
-
-void PairGranularAdhesive::find_radii()
-{
-  const int n = atom->ntypes + 1;
-  std::vector<double> largest(n, 0.0), inverse_smallest(n, 0.0);
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double r = atom->radius[i];
-    const int t = atom->type[i];
-    if (r <= 0.0)
-      error->one(FLERR, Error::NOLASTLINE, "Pair granular/adhesive needs radii > 0, atom {} has {}",
-                 atom->tag[i], r);
-    largest[t] = MAX(largest[t], r);
-    inverse_smallest[t] = MAX(inverse_smallest[t], 1.0 / r);
-  }
-  radius_max.assign(n, 0.0);
-  radius_min.assign(n, 0.0);
-  MPI_Allreduce(largest.data(), radius_max.data(), n, MPI_DOUBLE, MPI_MAX, world);
-  MPI_Allreduce(inverse_smallest.data(), radius_min.data(), n, MPI_DOUBLE, MPI_MAX, world);
-
-  for (const auto &fix : modify->get_fix_list())
-    for (int t = 1; t < n; t++) {
-      int type = t;
-      const auto *inserted = static_cast<double *>(fix->extract("radius", type));
-      if (inserted) radius_max[t] = MAX(radius_max[t], *inserted);
-    }
-  for (int t = 1; t < n; t++)
-    radius_min[t] = radius_min[t] > 0.0 ? 1.0 / radius_min[t] : radius_max[t];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -359,14 +307,14 @@ double PairGranularAdhesive::init_one(int i, int j)
   kernel = apf::contact_kernel(choice);
 
   // a type without particles so far gets the cut-off of the largest one
-  const double any = *std::max_element(radius_max.begin(), radius_max.end());
-  const double ri = radius_max[i] > 0.0 ? radius_max[i] : any;
-  const double rj = radius_max[j] > 0.0 ? radius_max[j] : any;
+  const double any = sizes.largest_radius();
+  const double ri = sizes.radius_max[i] > 0.0 ? sizes.radius_max[i] : any;
+  const double rj = sizes.radius_max[j] > 0.0 ? sizes.radius_max[j] : any;
   if (any == 0.0) return 0.0;
   const double neck = model.normal(ri * rj / (ri + rj)).pulloff_overlap();
   neck_max = MAX(neck_max, neck);
-  if (radius_max[i] > 0.0 && radius_max[j] > 0.0) {
-    const double si = radius_min[i], sj = radius_min[j];
+  if (sizes.radius_max[i] > 0.0 && sizes.radius_max[j] > 0.0) {
+    const double si = sizes.radius_min[i], sj = sizes.radius_min[j];
     check_overlap(lmp, fmt::format("Pair granular/adhesive types {} {}", i, j), model,
                   si * sj / (si + sj), MIN(si, sj));
   }
@@ -379,20 +327,14 @@ double PairGranularAdhesive::init_one(int i, int j)
 
 void PairGranularAdhesive::setup()
 {
-  const int n = atom->ntypes + 1;
-  std::vector<double> inverse(n, 0.0), inv_mass(n, 0.0);    // of the lightest particle of each type
-  for (int i = 0; i < atom->nlocal; i++)
-    inverse[atom->type[i]] = MAX(inverse[atom->type[i]], 1.0 / atom->rmass[i]);
-  MPI_Allreduce(inverse.data(), inv_mass.data(), n, MPI_DOUBLE, MPI_MAX, world);
-
   apf::StiffestMode worst;
-  for (int i = 1; i < n; i++)
-    for (int j = i; j < n; j++) {
-      if (inv_mass[i] == 0.0 || inv_mass[j] == 0.0) continue;
-      const double ri = radius_min[i], rj = radius_min[j];
-      const double inv_I = 2.5 * (inv_mass[i] / (ri * ri) + inv_mass[j] / (rj * rj));
-      const auto bodies =
-          apf::ContactBodies::pair(ri, rj, 1.0 / (inv_mass[i] + inv_mass[j]), 1.0 / inv_I);
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      const double mi = sizes.mass_min[i], mj = sizes.mass_min[j];
+      if (mi == 0.0 || mj == 0.0) continue;
+      const double ri = sizes.radius_min[i], rj = sizes.radius_min[j];
+      const double inv_I = 2.5 / (mi * ri * ri) + 2.5 / (mj * rj * rj);
+      const auto bodies = apf::ContactBodies::pair(ri, rj, mi * mj / (mi + mj), 1.0 / inv_I);
       worst = std::max(worst, apf::stiffest_mode(coefficients[i][j].model, bodies));
     }
   check_timestep(lmp, "Pair granular/adhesive", worst, store->step_of_level());
@@ -532,7 +474,6 @@ void *PairGranularAdhesive::extract(const char *name, int &dim)
 
 double PairGranularAdhesive::memory_usage()
 {
-  const double per_candidate = 2 * sizeof(int) + sizeof(double) + sizeof(char);
-  return Pair::memory_usage() + contacts.memory_usage() + candidates.i.capacity() * per_candidate +
+  return Pair::memory_usage() + contacts.memory_usage() + candidates.memory_usage() +
       parts.capacity() * sizeof(apf::ContactParts);
 }

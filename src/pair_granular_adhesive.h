@@ -9,8 +9,10 @@ PairStyle(granular/adhesive,PairGranularAdhesive);
 
 #include "pair.h"
 
+#include "contact/candidates.h"
 #include "contact/contact_kernel.h"
 #include "contact_keywords.h"
+#include "type_sizes.h"
 
 #include <unordered_map>
 
@@ -44,13 +46,7 @@ class PairGranularAdhesive : public Pair {
   void list_was_built() { rebuild = true; }
 
  private:
-  // pairs of the neighbour list; those that are closed stand in `contacts` as well
-  struct Candidates {
-    std::vector<int> i, j;
-    std::vector<double> touch2;    // (r_i + r_j)^2
-    std::vector<char> closed;
-  } candidates;
-
+  apf::Candidates candidates;    // pairs of the neighbour list
   apf::ContactList contacts;
   apf::KernelChoice choice;
   apf::ContactKernel kernel = nullptr;
@@ -62,8 +58,8 @@ class PairGranularAdhesive : public Pair {
   double neck_max = 0.0;    // longest neck of any pair of types
   int freeze_group_bit = 0;
   class Fix *rigid = nullptr;
-  std::vector<double> mass_rigid;                // of the body an atom belongs to, 0 if none
-  std::vector<double> radius_min, radius_max;    // per type, over all ranks
+  std::vector<double> mass_rigid;    // of the body an atom belongs to, 0 if none
+  TypeSizes sizes;
 
   // parts of all contacts at one timestep, for single()
   std::vector<apf::ContactParts> parts;
@@ -71,10 +67,8 @@ class PairGranularAdhesive : public Pair {
   bigint parts_step = -1;
 
   void allocate();
-  void find_radii();
   void find_rigid_masses();
   void build_candidates();
-  void detect();
   void close(int candidate, const apf::ContactHistory &);
   apf::ContactBodies bodies_of(int i, int j) const;
   void remove_ended();

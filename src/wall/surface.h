@@ -47,9 +47,11 @@ struct Surface {
     at[d2] = origin[1] + radius * e2;
   }
 
- private:
+  // the two dimensions across the plane's normal or the cylinder's axis
   int first() const { return dim == 0 ? 1 : 0; }
   int second() const { return dim == 2 ? 1 : 2; }
+
+ private:
   double axis_distance(const double *x) const
   {
     const double a = x[first()] - origin[0], b = x[second()] - origin[1];
