@@ -32,6 +32,7 @@ int FixContactHistory::setmask()
 
 void FixContactHistory::init()
 {
+  FixContacts::init();
   if (!pair)
     error->all(FLERR, Error::NOLASTLINE,
                "Fix contact/history is internal to pair style granular/adhesive: use that instead");
@@ -65,9 +66,22 @@ void FixContactHistory::synchronize()
   comm->forward_comm(this);
 }
 
+void FixContactHistory::count_contacts()
+{
+  counts.assign(atom->nmax, 0.0);
+  for (int i = 0; i < atom->nlocal; i++) counts[i] = stored_contacts(i);
+  sends_counts = true;
+  comm->forward_comm(this, 1);
+  sends_counts = false;
+}
+
 // Ghosts of a sheared periodic box move relative to their owners, as CommBrick does it for v.
 int FixContactHistory::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int *pbc)
 {
+  if (sends_counts) {
+    for (int k = 0; k < n; k++) buf[k] = counts[list[k]];
+    return n;
+  }
   double dv[3] = {0.0, 0.0, 0.0};
   if (pbc_flag && domain->deform_vremap) {
     dv[0] = pbc[0] * domain->h_rate[0] + pbc[5] * domain->h_rate[5] + pbc[4] * domain->h_rate[4];
@@ -86,6 +100,10 @@ int FixContactHistory::pack_forward_comm(int n, int *list, double *buf, int pbc_
 
 void FixContactHistory::unpack_forward_comm(int n, int first, double *buf)
 {
+  if (sends_counts) {
+    std::copy(buf, buf + n, &counts[first]);
+    return;
+  }
   for (int i = first; i < first + n; i++) {
     for (int c = 0; c < 3; c++) velocities.v[3 * i + c] = *buf++;
     for (int c = 0; c < 3; c++) velocities.omega[3 * i + c] = *buf++;

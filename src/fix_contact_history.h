@@ -35,6 +35,10 @@ class FixContactHistory : public FixContacts {
   // history of atom i's contact with the atom of that ID at the last rebuild; nullptr if none
   const apf::ContactHistory *find(int i, tagint partner) const { return store.find(i, partner); }
 
+  // contacts of local and ghost atoms, with particles and walls, when the neighbour list was built
+  void count_contacts();
+  double count(int i) const { return counts[i]; }
+
   // velocities at the time of the positions, local and ghost atoms: [atoms][3]
   void synchronize();
   const double *velocity() const { return velocities.v.data(); }
@@ -48,7 +52,9 @@ class FixContactHistory : public FixContacts {
  private:
   class PairGranularAdhesive *pair = nullptr;
   double radius_growth = 0.0;
-  std::vector<int> sent;    // records that each ghost has sent to its owner
+  std::vector<double> counts;
+  bool sends_counts = false;    // what forward communication carries: counts or velocities
+  std::vector<int> sent;        // records that each ghost has sent to its owner
 
   void send_to_owners();
 };

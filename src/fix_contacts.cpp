@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "modify.h"
 #include "respa.h"
 #include "update.h"
 
@@ -32,6 +33,22 @@ int FixContacts::setmask()
 {
   return POST_INTEGRATE_RESPA | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR |
       MIN_POST_NEIGHBOR | POST_RUN;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixContacts::init()
+{
+  keepers.clear();
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *keeper = dynamic_cast<const FixContacts *>(fix)) keepers.push_back(keeper);
+}
+
+int FixContacts::stored_contacts(int i) const
+{
+  int n = 0;
+  for (const auto *keeper : keepers) n += keeper->store.count(i);
+  return n;
 }
 
 /* ---------------------------------------------------------------------- */

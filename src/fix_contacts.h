@@ -18,6 +18,7 @@ class FixContacts : public Fix {
   FixContacts(class LAMMPS *, int, char **);
   ~FixContacts() override;
   int setmask() override;
+  void init() override;
   void post_integrate_respa(int, int) override;
   void pre_exchange() override;
   void min_pre_exchange() override { pre_exchange(); }
@@ -50,8 +51,14 @@ class FixContacts : public Fix {
   virtual std::vector<double> global_state() const { return {}; }
   virtual void set_global_state(const double *) {}
 
+  // contacts of local atom i, with particles and walls, when the neighbour list was last built
+  int stored_contacts(int i) const;
+
   void synchronize();              // velocities of local atoms at the time of the positions
   double step_of_level() const;    // time between two force computations
+
+ private:
+  std::vector<const FixContacts *> keepers;    // all fixes that own contacts, this one included
 };
 
 }    // namespace LAMMPS_NS

@@ -66,6 +66,7 @@ int FixWallLevelset::setmask()
 
 void FixWallLevelset::init()
 {
+  FixContacts::init();
   rigid = nullptr;
   for (const auto &fix : modify->get_fix_list())
     if (fix->rigid_flag) rigid = fix;
@@ -148,11 +149,11 @@ void FixWallLevelset::post_force(int vflag)
   if (!lender) synchronize();
   detect();
   gather();
-  const double dt = update->setupflag ? 0.0 : step_of_level();
+  const double step = step_of_level();
   if (contacts.size() > 0)
     kernel(contacts,
-           {rows.x.data(), rows.v.data(), rows.omega.data(), rows.f.data(), rows.torque.data()}, dt,
-           nullptr);
+           {rows.x.data(), rows.v.data(), rows.omega.data(), rows.f.data(), rows.torque.data()},
+           {update->setupflag ? 0.0 : step, step}, nullptr);
   scatter(vflag);
   remove_ended();
 }
@@ -172,13 +173,13 @@ void FixWallLevelset::detect()
                    "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
                    "inside, or use a smaller timestep",
                    command, id, atom->tag[i], -distance);
-      close(i, s, apf::ContactHistory());
+      close(i, s, apf::ContactHistory(), true);
       captured += 1.0;
     }
   }
 }
 
-void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &history)
+void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &history, bool fresh)
 {
   double m = atom->rmass[i];
   const double r = atom->radius[i], I = 0.4 * m * r * r;
@@ -189,8 +190,9 @@ void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &histo
     if (body && mass && body[i] >= 0) m = mass[body[i]];
   }
   const int k = contacts.size();
-  contacts.add(2 * k, 2 * k + 1, i,
-               apf::ContactConstants::make(coefficient.model, apf::ContactBodies::wall(r, m, I)),
+  auto bodies = apf::ContactBodies::wall(r, m, I);
+  bodies.crowding = stored_contacts(i) + (fresh ? 1 : 0);
+  contacts.add(2 * k, 2 * k + 1, i, apf::ContactConstants::make(coefficient.model, bodies),
                history);
   surface_of.push_back(surface);
   touched[i] |= 1u << surface;
@@ -295,7 +297,7 @@ void FixWallLevelset::find_again()
   std::fill(touched.begin(), touched.end(), 0u);
   for (int i = 0; i < atom->nlocal; i++)
     for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
-      if (const auto *history = store.find(i, s)) close(i, s, *history);
+      if (const auto *history = store.find(i, s)) close(i, s, *history, false);
 }
 
 /* ----------------------------------------------------------------------
@@ -310,7 +312,7 @@ double FixWallLevelset::compute_scalar()
     std::vector<double> unused(rows.f.size()), unused_torque(rows.f.size());
     kernel(contacts,
            {rows.x.data(), rows.v.data(), rows.omega.data(), unused.data(), unused_torque.data()},
-           0.0, parts.data());
+           {0.0, step_of_level()}, parts.data());
     for (const auto &p : parts)
       energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
   }

@@ -68,7 +68,7 @@ class FixWallLevelset : public FixContacts {
 
   void find_again();
   void detect();
-  void close(int i, int surface, const apf::ContactHistory &);
+  void close(int i, int surface, const apf::ContactHistory &, bool fresh);
   void remove_ended();
   void gather();
   void scatter(int vflag);

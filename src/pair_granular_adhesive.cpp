@@ -70,21 +70,22 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   ev_init(eflag, vflag);
   if (rebuild) {
     find_rigid_masses();
+    store->count_contacts();
     build_candidates();
   }
   store->synchronize();
   // contacts open with first touch and end with the neck
   if (candidates.size() > 0)
     candidates.detect(&atom->x[0][0], [this](int k) {
-      close(k, apf::ContactHistory());
+      close(k, apf::ContactHistory(), true);
     });
 
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
-  const double dt = update->setupflag ? 0.0 : store->step_of_level();
+  const double step = store->step_of_level();
   if (contacts.size() > 0)
-    kernel(contacts, bodies(&atom->f[0][0], &atom->torque[0][0]), dt,
-           tallied ? parts.data() : nullptr);
+    kernel(contacts, bodies(&atom->f[0][0], &atom->torque[0][0]),
+           {update->setupflag ? 0.0 : step, step}, tallied ? parts.data() : nullptr);
 
   // a ghost's force belongs to another rank, which has computed it as well
   if (!force->newton_pair && atom->nghost > 0) {
@@ -115,7 +116,7 @@ void PairGranularAdhesive::build_candidates()
       const int j = jlist[jj] & NEIGHMASK;
       const int k = candidates.add(i, j, radius[i] + radius[j]);
       const auto *history = store->find(i, tag[j]);
-      if (history) close(k, *history);
+      if (history) close(k, *history, false);
     }
   }
   rebuild = false;
@@ -123,11 +124,11 @@ void PairGranularAdhesive::build_candidates()
 
 /* ---------------------------------------------------------------------- */
 
-void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
+void PairGranularAdhesive::close(int k, const apf::ContactHistory &history, bool fresh)
 {
   const int i = candidates.i[k], j = candidates.j[k];
   const auto &model = coefficients[atom->type[i]][atom->type[j]].model;
-  contacts.add(i, j, k, apf::ContactConstants::make(model, bodies_of(i, j)), history);
+  contacts.add(i, j, k, apf::ContactConstants::make(model, bodies_of(i, j, fresh)), history);
   candidates.closed[k] = 1;
 }
 
@@ -135,7 +136,7 @@ void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
    radii and effective inertia; frozen particles and rigid bodies count as LAMMPS counts them
 ------------------------------------------------------------------------- */
 
-apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j) const
+apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j, bool fresh) const
 {
   const double ri = atom->radius[i], rj = atom->radius[j];
   double mi = atom->rmass[i], mj = atom->rmass[j];
@@ -149,7 +150,10 @@ apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j) const
              frozen_j = atom->mask[j] & freeze_group_bit;
   if (frozen_i && !frozen_j) inv_mi = inv_Ii = 0.0;
   if (frozen_j && !frozen_i) inv_mj = inv_Ij = 0.0;
-  return apf::ContactBodies::pair(ri, rj, 1.0 / (inv_mi + inv_mj), 1.0 / (inv_Ii + inv_Ij));
+  auto bodies = apf::ContactBodies::pair(ri, rj, 1.0 / (inv_mi + inv_mj), 1.0 / (inv_Ii + inv_Ij));
+  const double zi = store->count(i) + (fresh ? 1 : 0), zj = store->count(j) + (fresh ? 1 : 0);
+  bodies.crowding = (zi * inv_mi + zj * inv_mj) * bodies.m;
+  return bodies;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -424,8 +428,8 @@ void PairGranularAdhesive::evaluate_parts()
   index_of_pair.clear();
   if (contacts.size() == 0) return;
   std::vector<double> unused(6 * static_cast<size_t>(atom->nmax));
-  kernel(contacts, bodies(unused.data(), unused.data() + 3 * static_cast<size_t>(atom->nmax)), 0.0,
-         parts.data());
+  kernel(contacts, bodies(unused.data(), unused.data() + 3 * static_cast<size_t>(atom->nmax)),
+         {0.0, store->step_of_level()}, parts.data());
   for (int k = 0; k < contacts.size(); k++)
     index_of_pair[(static_cast<uint64_t>(contacts.i[k]) << 32) |
                   static_cast<uint32_t>(contacts.j[k])] = k;

@@ -45,6 +45,20 @@ def visit_math_block(translator, node):
     raise nodes.SkipNode
 
 
+# alignment at & in formulas of several lines, which Chromium does not take from MathML, and fonts
+# that have the sizes of brackets and roots
+STYLE = """<style>
+math { font-family: "STIX Two Math", "STIX Math", "Latin Modern Math", "Cambria Math", math; }
+mtd:nth-child(odd) { text-align: -webkit-right; text-align: right; }
+mtd:nth-child(even) { text-align: -webkit-left; text-align: left; }
+</style>"""
+
+
+def add_style(app, pagename, templatename, context, doctree):
+    context["metatags"] = context.get("metatags", "") + STYLE
+
+
 def setup(app):
     app.add_html_math_renderer("mathml", (visit_math, None), (visit_math_block, None))
+    app.connect("html-page-context", add_style)
     return {"parallel_read_safe": True}

@@ -11,6 +11,7 @@ import argparse
 import csv
 import re
 import sys
+import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -82,10 +83,10 @@ def read_rows(path):
 def read_history(path):
     """Aggregates over time: dict of arrays, named as in the file's second line; t in L/U."""
     rows = read_rows(path)
-    names = path.read_text().splitlines()[1].lstrip("# ").split()
-    names = [name.split("[")[0] for name in names]
     if len(rows) < 2:
         stop(path, "holds no time after t = 0 yet")
+    header = path.read_text().splitlines()[1]
+    names = [name.split("[")[0] for name in header.lstrip("# ").split()]
     for row in rows:
         if len(row) != len(names):
             stop(path, f"step {row[0]:.0f} has {len(row)} of {len(names)} columns")
@@ -158,7 +159,7 @@ def read_overlaps(path, unit, si):
 
 def read_picture(folder, phi, unit):
     """Time [L/U] and pixels of the last picture."""
-    paths = sorted(folder.glob(f"channel-phi{phi}.[0-9]*.png"))
+    paths = sorted(folder.glob(f"channel-phi{phi}.{'[0-9]' * 9}.png"))
     if not paths:
         stop(folder / f"channel-phi{phi}.*.png", "missing; in.channel writes them")
     try:
@@ -172,12 +173,15 @@ def read_runs(folder, si):
     runs = []
     for path in folder.glob("channel-phi*.aggregates"):
         phi, stem = path.stem.removeprefix("channel-phi"), str(path.with_suffix(""))
+        if not re.fullmatch(r"\d+(\.\d*)?(e[+-]?\d+)?", phi):
+            stop(path, f"phi must be a number in the file's name, got '{phi}'")
         history = read_history(path)
         unit = history["step"][-1] / history["t"][-1]
         profiles = read_profiles(Path(stem + ".profiles"), unit, si)
         for name in ("in_aggregates", "wall_in_aggregates"):
             history[name] = history[name] / profiles["particles"]
-        runs.append(Run(phi, history, profiles, read_overlaps(Path(stem + ".overlaps"), unit, si),
+        overlaps = read_overlaps(Path(stem + ".overlaps"), unit, si)
+        runs.append(Run(f"{float(phi):g}", history, profiles, overlaps,
                         read_picture(folder, phi, unit)))
     if not runs:
         stop(folder / "channel-phi*.aggregates", "missing; run in.channel with -var dir first")
@@ -336,9 +340,8 @@ def draw_profile(axes, run, words):
     axes[1].plot(y, 1 - 4 * y**2, "--", color="0.45", linewidth=1, label="air, 1 - 4 (y/L)$^2$")
     axes[1].plot(p["y"], p["v"], **look, label="particles")
     axes[0].set_title(rf"$\phi$ = {run.phi},  t = {p['t'][-1]:g} L/U", loc="left")
-    if words:
-        axes[0].text(0.5, 0.95, words, transform=axes[0].transAxes, ha="center", va="top",
-                     fontsize=9, style="italic")
+    axes[0].text(0.5, 0.95, textwrap.fill(words, 48), transform=axes[0].transAxes, ha="center",
+                 va="top", fontsize=9, style="italic")
 
 
 def draw_profiles(runs, report, path):
@@ -348,8 +351,8 @@ def draw_profiles(runs, report, path):
     for row, run in zip(axes, runs):
         said = [r for r in report if r["figure"] == "10" and r["case"] == run.phi]
         stills = [r for r in said if r["quantity"] == "still_layer"]
-        words = [f"report, t {r['for_t']}: {r['words']}" for r in said if r not in stills]
-        draw_profile(row, run, "\n".join(words))
+        words = "; ".join(r["words"] for r in said if r not in stills)
+        draw_profile(row, run, f"report, t {said[0]['for_t']}: {words}" if words else "")
         for r in stills:
             label = f"report, t {r['for_t']}:\n{r['words'].replace('of', 'L of')}"
             row[1].axvspan(-0.5, r["value"] - 0.5, color="0.87", zorder=0, label=label)
@@ -365,28 +368,25 @@ def draw_profiles(runs, report, path):
     save(figure, path)
 
 
-def draw_values(axis, rows, scale, highest):
-    """The report's values: dashed lines with labels, drawn in the colour of their phi."""
-    for row in (row for row in rows if not np.isnan(row["value"])):
+def draw_values(axis, rows, scale):
+    """The report's values: dashed lines labelled at the right, in the colour of their phi."""
+    rows = sorted((row for row in rows if not np.isnan(row["value"])), key=lambda row: row["value"])
+    for row in rows:
         value, look = row["value"] * scale, style(row["case"])["color"]
-        above = row["value"] == highest
         axis.axhline(value, color=look, linewidth=0.9, linestyle=(0, (6, 3)))
-        axis.annotate(f"report, t {row['for_t']}: {100 * row['value']:g} %", (0.02, value),
-                      xycoords=("axes fraction", "data"), xytext=(0, 2 if above else -2),
-                      textcoords="offset points", va="bottom" if above else "top", fontsize=9,
-                      color=look)
+        axis.text(1.02, value, f"{100 * row['value']:g} %", color=look, fontsize=9,
+                  va="bottom" if row is rows[-1] else "top", transform=axis.get_yaxis_transform())
+    return f"report, t {rows[0]['for_t']}" if rows else ""
 
 
 def draw_ranges(axis, rows):
-    """The report's ranges: bars at the right edge, each in the colour of its phi."""
+    """The report's ranges: bars at the right, in the colour of their phi."""
     rows = [row for row in rows if np.isnan(row["value"])]
     for k, row in enumerate(rows):
         axis.plot([1.03 + 0.035 * k] * 2, [row["low"], row["high"]], clip_on=False, linewidth=4,
                   solid_capstyle="butt", color=style(row["case"])["color"],
                   transform=axis.get_yaxis_transform())
-    if rows:
-        axis.text(1.03 + 0.035 * len(rows), 0.5, f"report's range, t {rows[0]['for_t']}",
-                  rotation=90, transform=axis.transAxes, va="center", fontsize=9)
+    return f"report's range, t {rows[0]['for_t']}" if rows else ""
 
 
 def draw_aggregates(runs, report, figure_number, names, tops, path):
@@ -403,14 +403,15 @@ def draw_aggregates(runs, report, figure_number, names, tops, path):
             top = max(top, 1.05 * scale * run.history[name].max())
         rows = [row for row in report if row["figure"] == figure_number and row["quantity"] == name
                 and row["case"] in [run.phi for run in runs]]
-        draw_values(axis, rows, scale, max(row["value"] for row in rows) if rows else 0)
-        draw_ranges(axis, rows)
-        axis.set(xlabel="t  [L/U]", xlim=(0, max(run.t for run in runs)), ylim=(0, top))
-    wall = "wall-attached " if figure_number == "13" else ""
+        words = draw_values(axis, rows, scale) or draw_ranges(axis, rows)
+        axis.text(1.14, 0.5, words, rotation=90, transform=axis.transAxes, va="center", fontsize=9)
+        axis.set(xlabel="t  [L/U]", title=f"({'abc'[names.index(name)]})", ylim=(0, top),
+                 xlim=(0, max(run.t for run in runs)))
+    wall = "wall " if figure_number == "13" else ""
     axes[0].set_ylabel(rf"$n_P$, particles in {wall}aggregates, of {total}")
     axes[1].set_ylabel(rf"$N_A$, number of {wall}aggregates")
     axes[2].set_ylabel(rf"$n_{{P/A}}$, particles per {wall}aggregate")
-    axes[1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(runs), frameon=False,
+    axes[1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.05), ncols=len(runs), frameon=False,
                    handlelength=2.6)
     save(figure, path)
 
@@ -418,17 +419,19 @@ def draw_aggregates(runs, report, figure_number, names, tops, path):
 def draw_overlaps(runs, stiffness, path):
     """Overlaps of pairs that touch, in particle radii, and the JKR overlap of a pair at rest."""
     figure, axis = plt.subplots(figsize=(7, 4), layout="constrained")
+    end = 0
     for run in runs:
         t, edges, share = run.overlaps
         look, rest = style(run.phi), 2 / 3 * (9 * np.pi * float(run.phi) / (4 * stiffness))**(2 / 3)
-        axis.stairs(share, edges, linewidth=1.4, **look,
+        axis.stairs(share, edges, fill=True, alpha=0.6, color=look["color"],
                     label=rf"$\phi$ = {run.phi}, t = {t:g} L/U")
         axis.axvline(rest, color=look["color"], linewidth=0.9, linestyle=":")
+        end = max(end, rest, edges[np.flatnonzero(share)[-1] + 1] if any(share) else 0)
     axis.plot([], [], ":", color="0.3", linewidth=0.9,
-              label=rf"pair at rest, $\lambda$ = {stiffness:g}")
-    axis.set(yscale="log", ylim=(1e-5, 2), xlim=(0, edges[-1]), ylabel="share of contacts per bin",
+              label=rf"JKR pair at rest, $\lambda$ = $10^{{{np.log10(stiffness):g}}}$")
+    axis.set(yscale="log", ylim=(1e-5, 2), xlim=(0, 1.2 * end), ylabel="share of contacts per bin",
              xlabel="overlap / particle radius (two particles that touch)")
-    axis.legend(fontsize=9, frameon=False)
+    axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1), fontsize=9, frameon=False, ncols=3)
     save(figure, path)
 
 

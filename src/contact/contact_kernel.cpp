@@ -82,10 +82,11 @@ struct Arrays {
     return {constants[0][k],  constants[1][k],  constants[2][k],  constants[3][k],
             constants[4][k],  constants[5][k],  constants[6][k],  constants[7][k],
             constants[8][k],  constants[9][k],  constants[10][k], constants[11][k],
-            constants[12][k], constants[13][k], constants[14][k], constants[15][k]};
+            constants[12][k], constants[13][k], constants[14][k], constants[15][k],
+            constants[16][k], constants[17][k]};
   }
 };
-static_assert(ContactList::n_constants == 16, "Arrays::at lists every constant");
+static_assert(ContactList::n_constants == 18, "Arrays::at lists every constant");
 
 template <class Frame>
 void gather(const ContactList &list, const Bodies &b, int first, int n, Block &block)
@@ -169,7 +170,7 @@ ContactParts report(const ContactConstants &c, const Arrays &arrays, const Block
 // Everything that belongs to one lane. It must not share local structures with the loop around it:
 // "omp simd" would put those into memory, one per lane, and nothing would become vector code.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling, bool reports>
-APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l, double dt,
+APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l, ContactTimes times,
                      ContactParts *parts)
 {
   using A = Access<Frame>;
@@ -183,7 +184,7 @@ APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l, double dt
     memory.normal = Access<SpaceFrame>::load(arrays.normal, k);
 
   const auto out =
-      contact_law<Frame, adhesion, sliding, twisting, rolling>(arrays.at(k), in, dt, memory);
+      contact_law<Frame, adhesion, sliding, twisting, rolling>(arrays.at(k), in, times, memory);
 
   if constexpr (sliding) A::store(arrays.sliding, k, memory.sliding);
   if constexpr (rolling) A::store(arrays.rolling, k, memory.rolling);
@@ -198,7 +199,7 @@ APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l, double dt
 }
 
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-void kernel(ContactList &list, const Bodies &bodies, double dt, ContactParts *parts)
+void kernel(ContactList &list, const Bodies &bodies, ContactTimes times, ContactParts *parts)
 {
   const Arrays arrays(list);
   Block block;
@@ -209,15 +210,15 @@ void kernel(ContactList &list, const Bodies &bodies, double dt, ContactParts *pa
     if (n == width && !parts) {
 #pragma omp simd
       for (int l = 0; l < width; l++)
-        lane<Frame, adhesion, sliding, twisting, rolling, false>(arrays, block, first + l, l, dt,
+        lane<Frame, adhesion, sliding, twisting, rolling, false>(arrays, block, first + l, l, times,
                                                                  nullptr);
     } else if (!parts) {
       for (int l = 0; l < n; l++)
-        lane<Frame, adhesion, sliding, twisting, rolling, false>(arrays, block, first + l, l, dt,
+        lane<Frame, adhesion, sliding, twisting, rolling, false>(arrays, block, first + l, l, times,
                                                                  nullptr);
     } else {
       for (int l = 0; l < n; l++)
-        lane<Frame, adhesion, sliding, twisting, rolling, true>(arrays, block, first + l, l, dt,
+        lane<Frame, adhesion, sliding, twisting, rolling, true>(arrays, block, first + l, l, times,
                                                                 parts);
     }
     scatter<Frame, sliding || twisting || rolling>(list, bodies, first, n, block);

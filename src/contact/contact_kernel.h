@@ -30,12 +30,12 @@ struct KernelChoice {
   }
 };
 
-using ContactKernel = void (*)(ContactList &list, const Bodies &bodies, double dt,
+using ContactKernel = void (*)(ContactList &list, const Bodies &bodies, ContactTimes times,
                                ContactParts *parts);
 
-// The kernel for a choice. kernel(list, bodies, dt, parts):
+// The kernel for a choice. kernel(list, bodies, times, parts):
 //   adds forces and torques of all contacts to bodies.f and bodies.torque,
-//   advances the histories by dt (0: evaluates only), sets list.overlap,
+//   advances the histories by times.advance (0: evaluates only), sets list.overlap,
 //   and, where parts is not null, fills parts[0 .. list.size()-1].
 // Contacts beyond the end of their neck exert nothing; the caller removes them (list.ended).
 ContactKernel contact_kernel(const KernelChoice &choice);

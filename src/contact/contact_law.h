@@ -78,10 +78,29 @@ APF_INLINE Vec3 carried(const Vec3 &xi, const Vec3 &n, const Vec3 &last, double 
   return cosine * tangent + sine * cross(n, tangent);
 }
 
-// The whole law. dt = time since the last call; 0 evaluates without touching the history's length.
+struct ContactTimes {
+  double advance;    // since the last call: histories grow by it; 0 evaluates only      [time]
+  double step;       // between calls, which limits dashpots; 0 = no limit               [time]
+};
+
+// The largest dashpot constant that an explicit step bears beside a spring k: with velocities
+// carried on by the last acceleration, eta dt/m < 1 - k dt^2 / (4 m), where m is the mass that
+// bodies with many contacts leave to one of them. Binds only in dense aggregates at large steps.
+APF_INLINE double stable_dashpot(double k, double m, double step)
+{
+  const double most = 0.9 * (m / step - 0.25 * k * step);
+  return most > 0.0 ? most : 0.0;
+}
+
+APF_INLINE double smaller(double a, double b)
+{
+  return a < b ? a : b;
+}
+
+// The whole law.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
 APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
-                                            const ContactInput<Frame> &in, double dt,
+                                            const ContactInput<Frame> &in, ContactTimes times,
                                             ContactMemory<Frame> &memory)
 {
   ContactOutput<Frame> out;
@@ -104,7 +123,8 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
   const double elastic = closed * c.K * s3 * (s3 - 6.0 * neck3);
   const double eta = closed * c.eta * s;
   const double vn = dot(in.v, frame.n);
-  const double damping = eta * vn;
+  const double kn = c.K * c.inv_R * s2;
+  const double damping = smaller(eta, stable_dashpot(kn, c.crowd_mass, times.step)) * vn;
 
   out.overlap = overlap;
   out.s = s;
@@ -117,7 +137,7 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
     const double known = norm2(old) > 0.5 ? 1.0 : 0.0;    // 0 in the contact's first step
     const Vec3 last = known * old + (1.0 - known) * n;
     const double scale = 1.0 / (1.0 + dot(n, last));
-    const double angle = 0.5 * dt * dot(in.spin_i + in.spin_j, n);
+    const double angle = 0.5 * times.advance * dot(in.spin_i + in.spin_j, n);
     const double q = 0.25 * angle * angle;    // Cayley form: a rotation for any angle
     const double inv = 1.0 / (1.0 + q);
     const double cosine = (1.0 - q) * inv, sine = angle * inv;
@@ -133,11 +153,13 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
 
   if constexpr (sliding || twisting) {
     const double kt = c.kt * s2 + 1.0e-300;
+    // a force at the surface of a sphere moves that surface as if it had 2/7 of the mass
+    const double eta_t = smaller(eta, stable_dashpot(kt, (2.0 / 7.0) * c.crowd_mass, times.step));
     const double limit = closed * c.mu * std::fabs(elastic + c.adhesion);
     if constexpr (sliding) {
       const auto slip =
           frame.slip(in.v, vn) + frame.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j);
-      const auto force = slider_force(kt, eta, limit, slip, dt, memory.sliding);
+      const auto force = slider_force(kt, eta_t, limit, slip, times.advance, memory.sliding);
       out.sliding = force;
       out.force = out.force + frame.force(force);
       const auto torque = frame.torque_of_force(force);
@@ -149,8 +171,8 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
       const double share = 0.5 * a * a;    // eq (31)
       const double twist_rate = dot(in.spin_i - in.spin_j, frame.n);
       const double torque =
-          slider_force(share * kt + 1.0e-300, share * eta, c.twist * (2.0 / 3.0) * a * limit,
-                       twist_rate, dt, memory.twisting);
+          slider_force(share * kt + 1.0e-300, share * eta_t, c.twist * (2.0 / 3.0) * a * limit,
+                       twist_rate, times.advance, memory.twisting);
       out.twisting = torque;
       out.torque_i = out.torque_i + torque * frame.n;
       out.torque_j = out.torque_j - torque * frame.n;
@@ -161,8 +183,9 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
     const double k = c.roll_k * s3 + 1.0e-300;
     const double limit = closed * c.roll_k * s3 * c.roll_limit;
     const auto v_roll = (-c.R) * frame.slip_of_spin(in.spin_i - in.spin_j);
-    const auto moment =
-        slider_force(k, closed * c.roll_eta * s * std::sqrt(s), limit, v_roll, dt, memory.rolling);
+    const double eta_r = smaller(closed * c.roll_eta * s * std::sqrt(s),
+                                 stable_dashpot(k, c.crowd_roll, times.step));
+    const auto moment = slider_force(k, eta_r, limit, v_roll, times.advance, memory.rolling);
     out.rolling = -frame.torque_of_force(moment);    // moment x n, eq (15)
     out.torque_i = out.torque_i + out.rolling;
     out.torque_j = out.torque_j - out.rolling;

@@ -43,12 +43,13 @@ struct ContactBodies {
   double R;                     // effective radius                                        [length]
   double m;                     // effective mass                                            [mass]
   double I;                     // effective moment of inertia                      [mass length^2]
+  double crowding;              // contacts that share the bodies, weighted by 1/mass; alone: 1 [-]
 
   static ContactBodies pair(double ri, double rj, double m_eff, double I_eff)
   {
-    return {ri, rj, 0.5, ri * rj / (ri + rj), m_eff, I_eff};
+    return {ri, rj, 0.5, ri * rj / (ri + rj), m_eff, I_eff, 1.0};
   }
-  static ContactBodies wall(double r, double m, double I) { return {r, 0.0, 1.0, r, m, I}; }
+  static ContactBodies wall(double r, double m, double I) { return {r, 0.0, 1.0, r, m, I, 1.0}; }
 };
 
 // Every coefficient multiplies a power of s = sqrt(a/R), see jkr.h.
@@ -68,8 +69,9 @@ struct ContactConstants {
   double twist;            // 1 with twisting resistance, else 0                                [-]
   double roll_k;           // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
   double roll_limit;       // xi_crit = theta_crit R                                       [length]
-  double
-      roll_eta;    // rolling damping: roll_eta s^(3/2)                        [force time/length]
+  double roll_eta;         // rolling damping: roll_eta s^(3/2)                 [force time/length]
+  double crowd_mass;       // m / crowding                                                   [mass]
+  double crowd_roll;       // I / (R crowding)                                        [mass length]
 
   static ContactConstants make(const ContactModel &model, const ContactBodies &bodies)
   {
@@ -98,6 +100,8 @@ struct ContactConstants {
     c.roll_k = 6.0 * normal.K * normal.neck3() * restore;
     c.roll_limit = model.theta_crit * bodies.R;
     c.roll_eta = 2.0 * model.zeta * std::sqrt(c.roll_k * bodies.I / bodies.R);
+    c.crowd_mass = bodies.m / bodies.crowding;
+    c.crowd_roll = bodies.I / (bodies.R * bodies.crowding);
     return c;
   }
 };

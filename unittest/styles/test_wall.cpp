@@ -2,8 +2,6 @@
 
 #include "scenes.h"
 
-#include <functional>
-
 namespace {
 
 const Material material;
@@ -219,14 +217,15 @@ TEST(Wall, energy_of_an_elastic_bounce_is_kept)
   Simulation sim;
   build(sim, {{4.0, 4.0, 0.505}},
         at_wall("fix wall all wall/levelset plane z 0 NULL jkr 1.0e6 0.25 0\nfix_modify wall energy yes"));
+  sim.run("compute ke all ke\nthermo_modify norm no");
   set_motion(sim, 1, {0.0, 0.0, -3.0}, {0.0, 0.0, 0.0});
   sim.run("fix nve all nve/sphere\nrun 0");
   const double start = 0.5 * mass * 9.0;
   double most = 0.0;
   for (int n = 0; n < 40; n++) {
     sim.run("run 10");
-    most = std::max(most, sim.value("pe*atoms"));
-    EXPECT_NEAR(sim.value("(pe+ke)*atoms") / start, 1.0, 1e-4);
+    most = std::max(most, sim.value("pe"));
+    EXPECT_NEAR(sim.value("pe+c_ke") / start, 1.0, 1e-4);
   }
   EXPECT_GT(most, 0.9 * start);    // it was in contact
 }
@@ -238,6 +237,22 @@ TEST(Wall, centre_behind_the_wall_is_an_error)
   set_motion(sim, 1, {0.0, 0.0, -2000.0}, {0.0, 0.0, 0.0});
   const std::string text = sim.error_of("fix nve all nve/sphere\nrun 1000");
   EXPECT_NE(text.find("the centre of atom 1"), std::string::npos) << text;
+}
+
+// Fix evaporate deletes the first atom before the wall, defined after it, has stored its contacts:
+// necks must not be lost, or the order be refused. Disabled until FixContacts does one of the two.
+TEST(Wall, DISABLED_stands_beside_a_fix_that_deletes_atoms)
+{
+  Simulation sim;
+  Scene scene = at_wall("", "p p f");
+  scene.before = "atom_modify sort 0 0";
+  build(sim, {{6.0, 6.0, 6.0}, {2.0, 2.0, 0.49}, {5.0, 5.0, 0.49}}, scene);
+  const std::string refusal = sim.error_of(
+      "group out id 1\nregion up block 0 8 0 8 1 8\nfix ev out evaporate 3 1 up 4321\n"
+      "fix wall all wall/levelset plane z 0 NULL" + jkr + "\nrun 0\n"
+      "displace_atoms all move 0 0 0.012 units box\nrun 10");
+  if (refusal.empty()) EXPECT_EQ(sim.value("f_wall[7]"), 2.0);
+  else EXPECT_NE(refusal.find("evaporate"), std::string::npos) << refusal;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -276,25 +291,35 @@ TEST(RanksWall, loads_balance_those_on_the_particles)
   }
 }
 
+// A wall contact on a journey, against the same journey without exchange and periodic wrap. Without
+// a limit of friction the sliding spring grows all the way.
 TEST(RanksWall, springs_travel_along_the_wall)
 {
-  auto loads = [](const std::string &velocity, const std::string &before) {
+  auto loads = [](const std::string &friction, const std::string &neighbors, const std::string &before) {
     Simulation sim;
-    Scene scene = at_wall(rough);
+    Scene scene = at_wall("fix wall all wall/levelset plane z 0 NULL" + jkr + friction);
     scene.before = before;
     build(sim, {{1.0, 2.0, 0.48}, {6.0, 7.0, 0.49}}, scene);
-    sim.run("neighbor 0.125 bin\nneigh_modify delay 0 every 1 check yes");
+    sim.run(neighbors);
     load_wall_springs(sim);
-    sim.run("fix mv all move linear " + velocity + " 0 units box\nrun 2200");
+    sim.run("velocity all set 64 -32 0\nfix mv all move linear 64 -32 0 units box\nrun 2200");
     return state_of(sim);
   };
-  const State twin = loads("0 0", "");
-  ASSERT_GT(largest(twin.torque), 0.1);
-  for (const char *before : {"", "atom_modify sort 5 1.0"})
-    for (const char *velocity : {"64 -32", "-16 128"}) {
-      SCOPED_TRACE(std::string(velocity) + " " + before);
-      expect_same_loads(loads(velocity, before), twin, 1e-12);
+  const std::string never = "neighbor 2.0 bin\nneigh_modify delay 1000000 every 1000000 check no";
+  const std::string often = "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check yes";
+  for (const std::string &friction : {all_friction, std::string("sliding 1e9")}) {
+    const State twin = loads(friction, never, "");
+    ASSERT_GT(largest(twin.torque), 0.1);
+    for (const char *before : {"", "atom_modify sort 5 1.0"}) {
+      SCOPED_TRACE(friction + " " + before);
+      expect_same_loads(loads(friction, often, before), twin, 1e-12);
     }
+    if (friction == all_friction) continue;
+    const double length = 64.0 * 2200 * dt;
+    // sphere 2 was loaded by its spin: omega x r, r = (0, 0, -0.49)
+    const double slip = -0.49 * 0.4 * 64 * dt;
+    EXPECT_NEAR(twin.f[3] / (-8.0 * material.G_eff() * material.wall().a(0.01) * (length + slip)), 1.0, 1e-7);
+  }
 }
 
 }    // namespace

@@ -1,0 +1,266 @@
+// Wrong input for pair_style and pair_coeff granular/adhesive and fix wall/levelset: messages name
+// command, argument, value and range. What the pages call an error or a warning is one here.
+
+#include "simulation.h"
+
+#include "gtest/gtest.h"
+
+#include <unistd.h>
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace {
+
+struct Row {
+  std::string input;
+  std::vector<std::string> words;    // that the message must contain
+};
+
+// two spheres apart, of types 1 and 2, in a box that is periodic in x and z
+const std::string particles = R"(
+units lj
+atom_style sphere
+comm_modify vel yes
+boundary p f p
+region box block 0 10 0 10 0 10
+create_box 2 box
+create_atoms 1 single 3 5 5
+create_atoms 2 single 6 5 5
+set group all diameter 1.0 density 1.0
+fix move all nve/sphere
+timestep 1e-5
+)";
+const std::string style = "pair_style granular/adhesive\n";
+const std::string hertz = "pair_coeff * * jkr 1e6 0.3 0\n";
+
+void expect_words(const std::string &text, const Row &row)
+{
+  EXPECT_NE(text, "") << "no message from: " << row.input;
+  for (const auto &word : row.words)
+    EXPECT_NE(text.find(word), std::string::npos)
+        << "no '" << word << "' in: " << text << "\nfrom: " << row.input;
+}
+
+void expect_errors(const std::string &scene, const std::vector<Row> &table)
+{
+  for (const auto &row : table) {
+    Simulation sim;
+    sim.run(scene);
+    expect_words(sim.error_of(row.input), row);
+  }
+}
+
+// What commands print, up to their error if there is one.
+std::string log_of(const std::string &commands)
+{
+  const auto path =
+      std::filesystem::temp_directory_path() / ("apf_errors_" + std::to_string(getpid()) + ".log");
+  {
+    Simulation sim;
+    sim.error_of("log " + path.string() + "\n" + commands);
+  }
+  std::ifstream file(path);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::filesystem::remove(path);
+  return text;
+}
+
+// the number that stands before `word` in text
+double number_before(const std::string &text, const std::string &word)
+{
+  const auto end = text.find(word);
+  if (end == std::string::npos) return 0.0;
+  return std::stod(text.substr(text.rfind(' ', end - 1) + 1));
+}
+
+// The contact law is the same behind both commands: rows of `law` follow it, command begins errors.
+std::vector<Row> law_errors(const std::string &line, const std::string &command)
+{
+  const std::string lower = static_cast<char>(std::tolower(command[0])) + command.substr(1);
+  const std::string missing = "command: missing argument";
+  std::vector<Row> table = {
+      {"", {"missing argument"}},
+      {"jkr", {lower + " jkr " + missing}},
+      {"jkr 1e6", {lower + " jkr " + missing}},
+      {"jkr 1e6 0.3", {lower + " jkr " + missing}},
+      {"material", {lower + " material " + missing}},
+      {"material materials.adhesive", {lower + " material " + missing}},
+      {"hertz 1e6 0.3 0", {command, "jkr or material", "got hertz"}},
+      {"jkr 0 0.3 0", {command, "Young's modulus E must be > 0, got 0"}},
+      {"jkr -1 0.3 0", {command, "Young's modulus E must be > 0, got -1"}},
+      {"jkr E 0.3 0", {"floating point", "'E'"}},
+      {"jkr nan 0.3 0", {"floating point", "'nan'"}},
+      {"jkr 1e6 -1 0", {command, "Poisson's ratio nu must be in (-1, 0.5], got -1"}},
+      {"jkr 1e6 0.51 0", {command, "Poisson's ratio nu must be in (-1, 0.5], got 0.51"}},
+      {"jkr 1e6 0.3 -0.1", {command, "surface energy gamma must be >= 0, got -0.1"}},
+      {"jkr 1e6 0.3 sliding 0.3", {"floating point", "'sliding'"}},
+  };
+  const std::vector<Row> keywords = {
+      {"0.5", {command, "keyword 0.5 is unknown", "damping, sliding, twisting, rolling, break"}},
+      {"cohesion 3", {command, "keyword cohesion is unknown", "scale_stiffness"}},
+      {"damping", {lower + " damping " + missing}},
+      {"damping viscous 1", {command, "damping must be tsuji, alpha or none"}},
+      {"damping tsuji", {lower + " damping tsuji restitution " + missing}},
+      {"damping tsuji 0", {command, "tsuji restitution must be in (0, 1], got 0"}},
+      {"damping tsuji -0.5", {command, "tsuji restitution must be in (0, 1], got -0.5"}},
+      {"damping tsuji 1.01", {command, "tsuji restitution must be in (0, 1], got 1.01"}},
+      {"damping tsuji e", {"floating point", "'e'"}},
+      {"damping alpha", {lower + " damping alpha " + missing}},
+      {"damping alpha -0.1", {command, "damping alpha must be >= 0, got -0.1"}},
+      {"damping alpha sliding 0.3", {"floating point", "'sliding'"}},
+      {"damping none 0", {command, "keyword 0 is unknown"}},
+      {"sliding", {lower + " sliding mu " + missing}},
+      {"sliding -0.3", {command, "sliding mu must be >= 0, got -0.3"}},
+      {"sliding yes", {"floating point", "'yes'"}},
+      {"sliding 0.3 twisting", {lower + " twisting " + missing}},
+      {"sliding 0.3 twisting maybe", {command, "twisting must be yes or no"}},
+      {"twisting yes", {command, "twisting yes needs sliding mu > 0"}},
+      {"sliding 0 twisting yes", {command, "twisting yes needs sliding mu > 0"}},
+      {"rolling", {lower + " rolling theta_crit " + missing}},
+      {"rolling -0.01", {command, "rolling theta_crit must be in [0, 1], got -0.01"}},
+      {"rolling 1.01", {command, "rolling theta_crit must be in [0, 1], got 1.01"}},
+      {"rolling 0.01 -0.1", {command, "rolling zeta must be >= 0, got -0.1"}},
+      {"rolling 0.01 much", {command, "keyword much is unknown"}},
+      {"rolling no", {"floating point", "'no'"}},
+      {"break", {lower + " break " + missing}},
+      {"break energy", {command, "break must be displacement or force"}},
+      {"scale_stiffness", {lower + " scale_stiffness " + missing}},
+      {"scale_stiffness 0", {command, "scale_stiffness must be in (0, 1], got 0"}},
+      {"scale_stiffness -1", {command, "scale_stiffness must be in (0, 1], got -1"}},
+      {"scale_stiffness 1.5", {command, "scale_stiffness must be in (0, 1], got 1.5"}},
+      {"scale_stiffness half", {"floating point", "'half'"}},
+      {"bridge 0.01 0.07 0 1e-3", {command, "bridge", "not available in this version"}},
+  };
+  for (const auto &row : keywords) table.push_back({"jkr 1e6 0.3 0.01 " + row.input, row.words});
+  table.push_back({"jkr 1e6 0.3 0 rolling 0.01", {command, "rolling needs adhesion", "gamma > 0"}});
+  for (auto &row : table) row.input = line + " " + row.input;
+  return table;
+}
+
+}    // namespace
+
+TEST(PairErrors, contact_law)
+{
+  expect_errors(particles + style, law_errors("pair_coeff 1 1", "Pair granular/adhesive"));
+}
+
+TEST(PairErrors, style_and_types)
+{
+  expect_errors(particles,
+                {{"pair_style granular/adhesive jkr", {"takes no arguments", "got jkr"}}});
+  expect_errors(particles + style,
+                {{"pair_coeff", {"missing argument"}},
+                 {"pair_coeff 1", {"missing argument"}},
+                 {"pair_coeff 1 1", {"missing argument"}},
+                 {"pair_coeff 1 3 jkr 1e6 0.3 0", {"3", "out of bounds", "1-2"}},
+                 {"pair_coeff 2 1*1 jkr 1e6 0.3 0", {"types 2 1*1", "no pair with I <= J"}},
+                 {"run 0", {"pair coeffs are not set"}},
+                 {"pair_coeff 1 1 jkr 1e6 0.3 0\nrun 0", {"pair coeffs are not set", "2      2"}},
+                 {"pair_coeff 1 1 jkr 1e6 0.3 0.01 zone a", {"keyword zone is unknown"}}});
+}
+
+TEST(PairErrors, what_a_scene_lacks)
+{
+  expect_errors(particles + style + hertz,
+                {{"comm_modify vel no\nrun 0", {"Pair granular/adhesive", "comm_modify vel yes"}},
+                 {"special_bonds lj 0.5 1 1\nrun 0", {"special_bonds lj factors 0 or 1, got 0.5"}},
+                 {"set type 2 diameter 0\nrun 0", {"radii > 0", "atom 2 has 0"}},
+                 {"fix a all freeze\nfix b all freeze\nrun 0", {"one fix freeze, got 2"}}});
+
+  const std::string box = "units lj\ncomm_modify vel yes\nregion b block 0 1 0 1 0 1\n";
+  expect_errors(box + "atom_style atomic\ncreate_box 1 b\nmass 1 1\n" + style + hertz,
+                {{"run 0", {"atom style sphere", "atomic"}}});
+  expect_errors(box + "atom_style ellipsoid\ncreate_box 1 b\n" + style + hertz,
+                {{"run 0", {"atom style sphere", "ellipsoid"}}});
+  expect_errors(box + "atom_style sphere\natom_modify id no\ncreate_box 1 b\n" + style + hertz,
+                {{"run 0", {"atom IDs", "atom_modify id no"}}});
+}
+
+TEST(PairErrors, fix_contact_history_is_internal)
+{
+  expect_errors(
+      particles + style + hertz,
+      {{"fix h all contact/history\nrun 0", {"internal", "pair style granular/adhesive"}}});
+}
+
+// R = 1/4, E = 50, delta_eq = a0^2/(3 R): 0.0619 r at gamma 0.1 and 0.597 r at gamma 3
+TEST(PairErrors, overlap_above_half_the_radius_stops_the_run)
+{
+  expect_errors(particles + style,
+                {{"pair_coeff * * jkr 100 0 3\nrun 0",
+                  {"types 1 1", "overlap by 0.597", "E 41.3 times", "0.5"}}});
+}
+
+TEST(PairWarnings, overlap_above_five_percent_and_its_cure)
+{
+  auto log = [](const std::string &E) {
+    return log_of(particles + style + "pair_coeff * * jkr " + E + " 0 0.1\nrun 0");
+  };
+  const std::string text = log("100");
+  expect_words(text, {"gamma 0.1", {"WARNING", "types 1 2", "overlap by 0.0619", "E 1.38 times"}});
+  const double factor = number_before(text, " times as large");
+  EXPECT_NEAR(factor, 1.377, 0.004);
+  EXPECT_EQ(log(std::to_string(100.0 * 1.02 * factor)).find("WARNING"), std::string::npos);
+  EXPECT_NE(log(std::to_string(100.0 * 0.98 * factor)).find("WARNING"), std::string::npos);
+}
+
+// each keyword makes its mode the stiffest where it should: the timestep that is named is quiet
+TEST(PairWarnings, timestep_names_the_mode_and_one_that_does)
+{
+  const struct {
+    std::string law, mode;
+  } table[] = {{"jkr 1e4 0.3 0.01 rolling 0.01", "normal"},
+               {"jkr 1e4 0.3 0.01 sliding 0.3", "tangential"},
+               {"jkr 1e4 0.3 0", "normal"}};
+  for (const auto &row : table) {
+    auto log = [&row](const std::string &dt) {
+      return log_of(particles + style + "pair_coeff * * " + row.law + "\ntimestep " + dt +
+                    "\nrun 0");
+    };
+    const std::string text = log("10");
+    expect_words(text,
+                 {row.law,
+                  {"WARNING: Pair granular/adhesive: timestep 10 is too large", row.mode + " mode",
+                   "above 0.8"}});
+    const double good = number_before(text, " gives 0.3");
+    EXPECT_GT(good, 0.0) << text;
+    EXPECT_EQ(log(std::to_string(good)).find("WARNING"), std::string::npos) << row.law;
+    EXPECT_EQ(log(std::to_string(2.6 * good)).find("WARNING"), std::string::npos) << row.law;
+    EXPECT_NE(log(std::to_string(2.8 * good)).find("WARNING"), std::string::npos) << row.law;
+  }
+}
+
+TEST(WallErrors, while_running)
+{
+  const std::string no_pair = "pair_style zero 2\npair_coeff * *\n",
+                    wall = "fix w all wall/levelset ";
+  expect_errors(
+      particles + no_pair,
+      {{wall + "plane y 0 10 jkr 100 0 5\nrun 0",
+        {"Fix wall/levelset w", "overlap by 1.06", "E 97.3 times", "0.5"}},
+       {wall + "plane y 6 NULL jkr 1e6 0.3 0\nrun 0",
+        {"Fix wall/levelset w", "atom 1", "outside the fluid", "1 behind the wall"}},
+       {wall + "cylinder z 5 5 1 inside jkr 1e6 0.3 0\nrun 0",
+        {"Fix wall/levelset w", "atom 1", "outside the fluid"}},
+       {wall + "plane y 0 10 jkr 1e-6 0.3 0\nset atom 1 y 9.6 vy 1\ntimestep 0.01\nrun 100",
+        {"Fix wall/levelset w", "atom 1 passed the wall", "smaller timestep"}}});
+}
+
+// delta_eq = 0.078 r at gamma 0.1: E must be (0.078/0.05)^1.5 = 1.95 times as large
+TEST(WallWarnings, overlap_and_timestep)
+{
+  const std::string start = particles + "pair_style zero 2\npair_coeff * *\n";
+  const std::string text =
+      log_of(start + "fix w all wall/levelset plane y 0 10 jkr 100 0 0.1\ntimestep 1\nrun 0");
+  expect_words(text,
+               {"wall",
+                {"WARNING: Fix wall/levelset w", "overlap by 0.078", "E 1.95 times",
+                 "timestep 1 is too large for the normal mode"}});
+  const double good = number_before(text, " gives 0.3");
+  const std::string quiet = log_of(start + "fix w all wall/levelset plane y 0 10 jkr 200 0 0.1\n" +
+                                   "timestep " + std::to_string(0.7 * good) + "\nrun 0");
+  EXPECT_EQ(quiet.find("WARNING"), std::string::npos) << quiet;
+}
