@@ -57,6 +57,12 @@ class Words {
     lmp->error->all(FLERR, offset + (at_end() ? narg - 1 : iarg), "{} {}", command, message);
   }
 
+  // the same where the word is none of those that the message lists
+  [[noreturn]] void refuse_word(const std::string &message) const
+  {
+    refuse(fmt::format("{}, got {}", message, arg[iarg]));
+  }
+
  private:
   LAMMPS *lmp;
   const char *command;
@@ -84,7 +90,7 @@ void parse_damping(Words &words, apf::ContactModel &model)
     model.alpha = 0.0;
   } else {
     words.need(1, "damping");
-    words.refuse("damping must be tsuji, alpha or none");
+    words.refuse_word("damping must be tsuji, alpha or none");
   }
 }
 
@@ -100,7 +106,7 @@ bool parse_keyword(Words &words, apf::ContactModel &model)
   } else if (words.is("twisting")) {
     words.skip();
     words.need(1, "twisting");
-    if (!words.is("yes") && !words.is("no")) words.refuse("twisting must be yes or no");
+    if (!words.is("yes") && !words.is("no")) words.refuse_word("twisting must be yes or no");
     model.twisting = words.is("yes");
     words.skip();
   } else if (words.is("rolling")) {
@@ -115,7 +121,7 @@ bool parse_keyword(Words &words, apf::ContactModel &model)
     else if (words.is("force"))
       model.neck_end = apf::Break::force;
     else
-      words.refuse("break must be displacement or force");
+      words.refuse_word("break must be displacement or force");
     words.skip();
   } else if (words.is("scale_stiffness")) {
     words.skip();

@@ -21,6 +21,7 @@ FixContactHistory::FixContactHistory(LAMMPS *lmp, int narg, char **arg) :
   if (narg != 3) error->all(FLERR, 3, "Fix contact/history takes no arguments, got {}", arg[3]);
   comm_forward = 6;
   comm_reverse = 1 + ContactStore::record_size;
+  register_with_atoms();
 }
 
 int FixContactHistory::setmask()
@@ -60,9 +61,8 @@ int FixContactHistory::level() const
   return dynamic_cast<Respa *>(update->integrate)->level_pair;
 }
 
-void FixContactHistory::synchronize()
+void FixContactHistory::share_velocities()
 {
-  FixContacts::synchronize();
   comm->forward_comm(this);
 }
 

@@ -12,8 +12,7 @@ FixStyle(contact/history,FixContactHistory);
 namespace LAMMPS_NS {
 
 // Serves one pair style granular/adhesive, which creates it: keeps its contacts, makes the
-// neighbour list reach to the end of the longest neck, and provides velocities at the time of the
-// positions for ghosts too.
+// neighbour list reach to the end of the longest neck, and keeps the velocities of the last forces.
 
 class FixContactHistory : public FixContacts {
  public:
@@ -39,17 +38,21 @@ class FixContactHistory : public FixContacts {
   void count_contacts();
   double count(int i) const { return counts[i]; }
 
-  // velocities at the time of the positions, local and ghost atoms: [atoms][3]
-  void synchronize();
+  // velocities of the last forces, local and ghost atoms: [atoms][3]
   const double *velocity() const { return velocities.v.data(); }
   const double *omega() const { return velocities.omega.data(); }
   int level() const override;
+  using FixContacts::last_times;
   using FixContacts::step_of_level;
+  using FixContacts::take_velocities;
+  using FixContacts::times;
 
  protected:
   void store_contacts() override;
 
  private:
+  void share_velocities() override;
+
   class PairGranularAdhesive *pair = nullptr;
   double radius_growth = 0.0;
   std::vector<double> counts;

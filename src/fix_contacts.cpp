@@ -17,22 +17,29 @@ FixContacts::FixContacts(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg
   restart_global = 1;    // write_restart() also brings the per-atom data up to date
   create_attribute = 1;
   maxexchange_dynamic = 1;
-  maxexchange = SynchronousVelocity::size + 1;
+  maxexchange = UsedVelocity::size + 1;
   FixContacts::grow_arrays(atom->nmax);
+}
+
+// Not in the constructor: when that of a derived class throws, LAMMPS does not know the fix yet, and
+// delete_callback() would throw in turn, from a destructor.
+void FixContacts::register_with_atoms()
+{
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
+  registered = true;
 }
 
 FixContacts::~FixContacts()
 {
+  if (!registered) return;
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
 }
 
 int FixContacts::setmask()
 {
-  return POST_INTEGRATE_RESPA | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR |
-      MIN_POST_NEIGHBOR | POST_RUN;
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -51,21 +58,34 @@ int FixContacts::stored_contacts(int i) const
   return n;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   At the first forces of a run velocities stand at the time of the positions, unless the run goes on
+   from where another ended: then the last forces are computed again, as they were.
+------------------------------------------------------------------------- */
 
-void FixContacts::post_integrate_respa(int ilevel, int iloop)
+const apf::ContactTimes &FixContacts::take_velocities()
 {
-  if (ilevel != level()) return;
-  const auto *respa = dynamic_cast<Respa *>(update->integrate);
-  outer_kick = iloop == 0 && ilevel < respa->nlevels - 1;
+  const double step = step_of_level();
+  taken = {step, 0.5 * step, step};
+  if (!update->setupflag) {
+    velocities.use(atom);
+    return taken;
+  }
+  taken.advance = 0.0;
+  int goes_on = velocities.goes_on(atom);
+  MPI_Allreduce(MPI_IN_PLACE, &goes_on, 1, MPI_INT, MPI_MIN, world);
+  if (goes_on) {
+    share_velocities();
+  } else {
+    taken.behind = 0.0;
+    velocities.use(atom);
+  }
+  return taken;
 }
 
-void FixContacts::synchronize()
+apf::ContactTimes FixContacts::last_times() const
 {
-  if (update->setupflag)
-    velocities.start(atom);
-  else
-    velocities.predict(atom, outer_kick);
+  return {0.0, taken.behind, taken.step};
 }
 
 double FixContacts::step_of_level() const
@@ -82,7 +102,7 @@ double FixContacts::step_of_level() const
 void FixContacts::pre_exchange()
 {
   store_contacts();
-  maxexchange = SynchronousVelocity::size + store.max_size(atom->nlocal);
+  maxexchange = UsedVelocity::size + store.max_size(atom->nlocal);
 }
 
 void FixContacts::post_run()
@@ -123,7 +143,7 @@ void FixContacts::copy_arrays(int i, int j, int /*delflag*/)
 void FixContacts::set_arrays(int i)
 {
   store.clear(i);
-  velocities.insert(atom, i);
+  velocities.insert(i);
 }
 
 int FixContacts::pack_exchange(int i, double *buf)
@@ -155,15 +175,15 @@ void FixContacts::unpack_restart(int i, int nth)
 
 int FixContacts::size_restart(int i)
 {
-  return 1 + SynchronousVelocity::size + store.size(i);
+  return 1 + UsedVelocity::size + store.size(i);
 }
 
 int FixContacts::maxsize_restart()
 {
-  return 1 + SynchronousVelocity::size + store.max_size(atom->nlocal);
+  return 1 + UsedVelocity::size + store.max_size(atom->nlocal);
 }
 
 double FixContacts::memory_usage()
 {
-  return store.memory_usage() + atom->nmax * (SynchronousVelocity::size + 6.0) * sizeof(double);
+  return store.memory_usage() + atom->nmax * UsedVelocity::size * sizeof(double);
 }

@@ -3,8 +3,9 @@
 
 #include "fix.h"
 
+#include "contact/contact_law.h"
 #include "contact_store.h"
-#include "synchronous_velocity.h"
+#include "used_velocity.h"
 
 namespace LAMMPS_NS {
 
@@ -19,7 +20,6 @@ class FixContacts : public Fix {
   ~FixContacts() override;
   int setmask() override;
   void init() override;
-  void post_integrate_respa(int, int) override;
   void pre_exchange() override;
   void min_pre_exchange() override { pre_exchange(); }
   void setup_post_neighbor() override { post_neighbor(); }
@@ -41,8 +41,9 @@ class FixContacts : public Fix {
 
  protected:
   ContactStore store;
-  SynchronousVelocity velocities;
-  bool outer_kick = false;    // an outer level of r-RESPA has kicked since the last forces
+  UsedVelocity velocities;
+
+  void register_with_atoms();    // last act of a derived class's constructor
 
   virtual void store_contacts() = 0;
   virtual int level() const = 0;    // of r-RESPA, on which the contacts act
@@ -54,11 +55,19 @@ class FixContacts : public Fix {
   // contacts of local atom i, with particles and walls, when the neighbour list was last built
   int stored_contacts(int i) const;
 
-  void synchronize();              // velocities of local atoms at the time of the positions
-  double step_of_level() const;    // time between two force computations
+  // Takes the velocities for the forces of this step; returns the times that the kernel needs.
+  // Collective at the first step of a run.
+  const apf::ContactTimes &take_velocities();
+  const apf::ContactTimes &times() const { return taken; }
+  apf::ContactTimes last_times() const;    // to look at the same forces again
+  double step_of_level() const;            // time between two force computations
 
  private:
   std::vector<const FixContacts *> keepers;    // all fixes that own contacts, this one included
+  bool registered = false;
+  apf::ContactTimes taken{};    // of the last forces
+
+  virtual void share_velocities() {}    // with ghosts, where these have contacts
 };
 
 }    // namespace LAMMPS_NS

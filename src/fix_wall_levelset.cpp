@@ -53,6 +53,7 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   choice.planar = domain->dimension == 2;
   choice.include(coefficient.model);
   kernel = apf::contact_kernel(choice);
+  register_with_atoms();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -72,9 +73,9 @@ void FixWallLevelset::init()
     if (fix->rigid_flag) rigid = fix;
 
   if (const auto *respa = dynamic_cast<Respa *>(update->integrate))
-    if (respa_level > respa->nlevels)
+    if (respa_level >= respa->nlevels)
       error->all(FLERR, Error::NOLASTLINE, "{} respa level must be in [1, {}], got {}", command,
-                 respa->nlevels, respa_level);
+                 respa->nlevels, respa_level + 1);
 
   // the pair style computes first and on the same level: its velocities serve here too
   lender = nullptr;
@@ -108,7 +109,7 @@ void FixWallLevelset::init()
 int FixWallLevelset::level() const
 {
   const auto *respa = dynamic_cast<Respa *>(update->integrate);
-  if (respa_level > 0) return respa_level - 1;
+  if (respa_level >= 0) return respa_level;    // fix_modify counts from 1, this from 0
   return respa->level_pair >= 0 ? respa->level_pair : respa->nlevels - 1;
 }
 
@@ -146,14 +147,13 @@ void FixWallLevelset::post_force(int vflag)
   v_init(vflag);
   touched.resize(atom->nmax, 0);
   if (rebuild) find_again();
-  if (!lender) synchronize();
+  const auto times = lender ? lender->times() : take_velocities();
   detect();
   gather();
-  const double step = step_of_level();
   if (contacts.size() > 0)
     kernel(contacts,
            {rows.x.data(), rows.v.data(), rows.omega.data(), rows.f.data(), rows.torque.data()},
-           {update->setupflag ? 0.0 : step, step}, nullptr);
+           times, nullptr);
   scatter(vflag);
   remove_ended();
 }
@@ -309,10 +309,11 @@ double FixWallLevelset::compute_scalar()
   double energy = 0.0;
   if (contacts.size() > 0) {
     std::vector<apf::ContactParts> parts(contacts.size());
+    gather();    // remove_ended() has renumbered the rows
     std::vector<double> unused(rows.f.size()), unused_torque(rows.f.size());
     kernel(contacts,
            {rows.x.data(), rows.v.data(), rows.omega.data(), unused.data(), unused_torque.data()},
-           {0.0, step_of_level()}, parts.data());
+           lender ? lender->last_times() : last_times(), parts.data());
     for (const auto &p : parts)
       energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
   }

@@ -73,7 +73,7 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
     store->count_contacts();
     build_candidates();
   }
-  store->synchronize();
+  const auto times = store->take_velocities();
   // contacts open with first touch and end with the neck
   if (candidates.size() > 0)
     candidates.detect(&atom->x[0][0], [this](int k) {
@@ -82,10 +82,9 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
 
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
-  const double step = store->step_of_level();
   if (contacts.size() > 0)
-    kernel(contacts, bodies(&atom->f[0][0], &atom->torque[0][0]),
-           {update->setupflag ? 0.0 : step, step}, tallied ? parts.data() : nullptr);
+    kernel(contacts, bodies(&atom->f[0][0], &atom->torque[0][0]), times,
+           tallied ? parts.data() : nullptr);
 
   // a ghost's force belongs to another rank, which has computed it as well
   if (!force->newton_pair && atom->nghost > 0) {
@@ -230,10 +229,12 @@ void PairGranularAdhesive::coeff(int narg, char **arg)
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+  // where arg[0] stands in the input line: 0, or behind the style names of pair_style hybrid
+  const int offset = force->pair_match("^hybrid", 0) ? 1 : 0;
   int iarg = 2;
-  const auto coeff = parse_contact(lmp, "Pair granular/adhesive", narg, arg, iarg, 1);
+  const auto coeff = parse_contact(lmp, "Pair granular/adhesive", narg, arg, iarg, offset);
   if (iarg < narg)
-    error->all(FLERR, iarg + 1,
+    error->all(FLERR, iarg + offset,
                "Pair granular/adhesive keyword {} is unknown; known are damping, "
                "sliding, twisting, rolling, break, scale_stiffness",
                arg[iarg]);
@@ -429,7 +430,7 @@ void PairGranularAdhesive::evaluate_parts()
   if (contacts.size() == 0) return;
   std::vector<double> unused(6 * static_cast<size_t>(atom->nmax));
   kernel(contacts, bodies(unused.data(), unused.data() + 3 * static_cast<size_t>(atom->nmax)),
-         {0.0, store->step_of_level()}, parts.data());
+         store->last_times(), parts.data());
   for (int k = 0; k < contacts.size(); k++)
     index_of_pair[(static_cast<uint64_t>(contacts.i[k]) << 32) |
                   static_cast<uint32_t>(contacts.j[k])] = k;

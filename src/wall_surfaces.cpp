@@ -31,6 +31,9 @@ std::vector<apf::Surface> LAMMPS_NS::parse_surfaces(LAMMPS *lmp, const char *com
   if (shape == "plane") {
     if (narg < iarg + 3) utils::missing_cmd_args(FLERR, "fix wall/levelset plane", lmp->error);
     const int dim = dimension("plane");
+    if (lmp->domain->dimension == 2 && dim == 2)
+      lmp->error->all(FLERR, iarg - 1, "{} plane dimension must be x or y in 2 dimensions, got {}",
+                      command, arg[iarg - 1]);
     if (lmp->domain->periodicity[dim])
       lmp->error->all(FLERR, iarg - 1, "{} plane needs a box that is not periodic in {}", command,
                       arg[iarg - 1]);

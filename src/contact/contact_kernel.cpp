@@ -186,11 +186,13 @@ APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l, ContactTi
   const auto out =
       contact_law<Frame, adhesion, sliding, twisting, rolling>(arrays.at(k), in, times, memory);
 
-  if constexpr (sliding) A::store(arrays.sliding, k, memory.sliding);
-  if constexpr (rolling) A::store(arrays.rolling, k, memory.rolling);
-  if constexpr (twisting && !Frame::planar) arrays.twisting[k] = memory.twisting;
-  if constexpr ((sliding || rolling) && !Frame::planar)
-    Access<SpaceFrame>::store(arrays.normal, k, memory.normal);
+  if (!reports || times.advance > 0.0) {    // a look at the parts must not change the run
+    if constexpr (sliding) A::store(arrays.sliding, k, memory.sliding);
+    if constexpr (rolling) A::store(arrays.rolling, k, memory.rolling);
+    if constexpr (twisting && !Frame::planar) arrays.twisting[k] = memory.twisting;
+    if constexpr ((sliding || rolling) && !Frame::planar)
+      Access<SpaceFrame>::store(arrays.normal, k, memory.normal);
+  }
   arrays.overlap[k] = out.overlap;
   A::set(block.force, l, out.force);
   A::set_spin(block.torque_i, l, out.torque_i);

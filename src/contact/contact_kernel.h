@@ -11,8 +11,8 @@ namespace apf {
 // Rows that contacts refer to. All arrays are [rows][3], contiguous.
 struct Bodies {
   const double *x;        // positions                                       [length]
-  const double *v;        // velocities at the time of the positions         [velocity]
-  const double *omega;    // angular velocities at the time of the positions [1/time]
+  const double *v;        // velocities, times.behind older than the positions [velocity]
+  const double *omega;    // angular velocities, as old                       [1/time]
   double *f;              // forces, added to                                [force]
   double *torque;         // torques, added to                               [force length]
 };

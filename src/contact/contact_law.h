@@ -3,6 +3,11 @@
 // space and for the plane: Frame says what a vector, a spin and a tangent are.
 //
 // n points from i to j. Velocities are i minus j. Compression and repulsion are positive.
+//
+// Velocities of a leapfrog step stand half a step before the positions. Split by the present normal
+// they would turn closing into sliding and corrupt static friction (arXiv:2410.14798); split by the
+// normal of their own time they give exactly the displacements of the step, and springs that are
+// stretched by them lose no energy to the time step.
 
 #ifndef APF_CONTACT_LAW_H
 #define APF_CONTACT_LAW_H
@@ -27,6 +32,7 @@ struct SpaceFrame {
 
   APF_INLINE Tangent slip(const Vec3 &v, double vn) const { return v - vn * n; }
   APF_INLINE Tangent slip_of_spin(const Spin &spin) const { return cross(spin, n); }
+  APF_INLINE Tangent tangent(const Vec3 &t) const { return t - dot(t, n) * n; }
   APF_INLINE Vec3 force(const Tangent &t) const { return t; }
   APF_INLINE Spin torque_of_force(const Tangent &t) const { return cross(n, t); }
 };
@@ -41,6 +47,7 @@ struct PlaneFrame {
 
   APF_INLINE Tangent slip(const Vec2 &v, double) const { return n.x * v.y - n.y * v.x; }
   APF_INLINE Tangent slip_of_spin(Spin spin) const { return spin; }
+  APF_INLINE Tangent tangent(Tangent t) const { return t; }
   APF_INLINE Vec2 force(Tangent t) const { return {-n.y * t, n.x * t}; }
   APF_INLINE Spin torque_of_force(Tangent t) const { return t; }
 };
@@ -79,16 +86,19 @@ APF_INLINE Vec3 carried(const Vec3 &xi, const Vec3 &n, const Vec3 &last, double 
 }
 
 struct ContactTimes {
-  double advance;    // since the last call: histories grow by it; 0 evaluates only      [time]
-  double step;       // between calls, which limits dashpots; 0 = no limit               [time]
+  double
+      advance;    // since the last call: histories grow by it; 0 evaluates only            [time]
+  double
+      behind;     // by which the velocities are older than the positions                    [time]
+  double step;    // between calls, which limits dashpots; 0 = no limit                      [time]
 };
 
-// The largest dashpot constant that an explicit step bears beside a spring k: with velocities
-// carried on by the last acceleration, eta dt/m < 1 - k dt^2 / (4 m), where m is the mass that
-// bodies with many contacts leave to one of them. Binds only in dense aggregates at large steps.
+// The largest dashpot constant that leapfrog steps bear beside a spring k: stable while
+// eta dt/m < 2 - k dt^2 / (2 m), with m the mass that bodies with many contacts leave to one of
+// them. It binds in dense aggregates at large steps only.
 APF_INLINE double stable_dashpot(double k, double m, double step)
 {
-  const double most = 0.9 * (m / step - 0.25 * k * step);
+  const double most = 0.9 * (2.0 * m / step - 0.5 * k * step);
   return most > 0.0 ? most : 0.0;
 }
 
@@ -122,7 +132,9 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
   const double neck3 = adhesion ? c.neck * c.neck * c.neck : 0.0;
   const double elastic = closed * c.K * s3 * (s3 - 6.0 * neck3);
   const double eta = closed * c.eta * s;
-  const double vn = dot(in.v, frame.n);
+  const auto d_mid = in.d + times.behind * in.v;    // where the bodies were when they had v
+  const Frame mid{(1.0 / std::sqrt(dot(d_mid, d_mid))) * d_mid};
+  const double vn = dot(in.v, mid.n);
   const double kn = c.K * c.inv_R * s2;
   const double damping = smaller(eta, stable_dashpot(kn, c.crowd_mass, times.step)) * vn;
 
@@ -157,8 +169,8 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
     const double eta_t = smaller(eta, stable_dashpot(kt, (2.0 / 7.0) * c.crowd_mass, times.step));
     const double limit = closed * c.mu * std::fabs(elastic + c.adhesion);
     if constexpr (sliding) {
-      const auto slip =
-          frame.slip(in.v, vn) + frame.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j);
+      const auto slip = frame.tangent(mid.slip(in.v, vn) +
+                                      mid.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j));
       const auto force = slider_force(kt, eta_t, limit, slip, times.advance, memory.sliding);
       out.sliding = force;
       out.force = out.force + frame.force(force);
@@ -169,7 +181,7 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
     if constexpr (twisting && !Frame::planar) {
       const double a = c.R * s2;
       const double share = 0.5 * a * a;    // eq (31)
-      const double twist_rate = dot(in.spin_i - in.spin_j, frame.n);
+      const double twist_rate = dot(in.spin_i - in.spin_j, mid.n);
       const double torque =
           slider_force(share * kt + 1.0e-300, share * eta_t, c.twist * (2.0 / 3.0) * a * limit,
                        twist_rate, times.advance, memory.twisting);
@@ -182,7 +194,7 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
   if constexpr (rolling) {
     const double k = c.roll_k * s3 + 1.0e-300;
     const double limit = closed * c.roll_k * s3 * c.roll_limit;
-    const auto v_roll = (-c.R) * frame.slip_of_spin(in.spin_i - in.spin_j);
+    const auto v_roll = (-c.R) * frame.tangent(mid.slip_of_spin(in.spin_i - in.spin_j));
     const double eta_r = smaller(closed * c.roll_eta * s * std::sqrt(s),
                                  stable_dashpot(k, c.crowd_roll, times.step));
     const auto moment = slider_force(k, eta_r, limit, v_roll, times.advance, memory.rolling);

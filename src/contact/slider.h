@@ -30,7 +30,7 @@ APF_INLINE Displacement slider_force(double k, double eta, double limit, const D
   const double share = limit < size ? limit / size : 1.0;
   const Displacement force = share * trial;
   const Displacement slipped = (1.0 / k) * (force - eta * v);
-  const double slips = (share < 1.0) ? 1.0 : 0.0;
+  const double slips = (share < 1.0 && dt > 0.0) ? 1.0 : 0.0;
   xi = stretched + slips * (slipped - stretched);
   return -force;
 }

@@ -219,7 +219,7 @@ TEST(RanksContactHistory, springs_travel_through_periodic_cells_and_ranks)
 {
   const State twin = interior_twin(squeezed);
   ASSERT_GT(largest(twin.torque), 0.1);
-  const std::string often = "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check yes\n";
+  const std::string often = "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check yes binsize 2\n";
   for (const auto &newton : both)
     for (const char *velocity : {"64 32 16", "-32 -64 128"}) {
       Scene scene;
@@ -235,7 +235,7 @@ TEST(RanksContactHistory, springs_travel_along_each_decomposition)
 {
   const State twin = interior_twin(squeezed);
   const std::string n = std::to_string(number_of_ranks());
-  const std::string every_step = "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check no\n";
+  const std::string every_step = "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check no binsize 2\n";
   for (const std::string &processors : {n + " 1 1", "1 " + n + " 1", "1 1 " + n}) {
     Scene scene;
     scene.processors = processors;
@@ -251,7 +251,7 @@ TEST(RanksContactHistory, springs_travel_through_a_tiled_decomposition)
     Scene scene;
     scene.newton = newton;
     const std::string tiled =
-        "comm_style tiled\ncomm_modify vel yes\nneighbor 0.125 bin\nneigh_modify delay 0 every 1 check no\n"
+        "comm_style tiled\ncomm_modify vel yes\nneighbor 0.125 bin\nneigh_modify delay 0 every 1 check no binsize 2\n"
         "fix rcb all balance 50 1.0 rcb\n";
     SCOPED_TRACE(newton);
     expect_same_loads(travelled(squeezed, scene, tiled, "64 32 16"), twin, tight);
@@ -265,7 +265,7 @@ TEST(RanksContactHistory, stretched_necks_travel_too)
     Simulation sim;
     build(sim, doublet(0.25 * material.pair().delta_eq()));
     preload(sim);
-    sim.run("neighbor 0.03125 bin\nneigh_modify delay 0 every 1 check no\n"
+    sim.run("neighbor 0.03125 bin\nneigh_modify delay 0 every 1 check no binsize 2\n"
             "group second id 1");
     // away from the first along x and y by powers of two: overlap about -0.5 delta_C
     sim.run("displace_atoms second move 0.00390625 0.001953125 0 units box\nrun 0");
