@@ -190,7 +190,7 @@ void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &histo
     if (body && mass && body[i] >= 0) m = mass[body[i]];
   }
   const int k = contacts.size();
-  auto bodies = apf::ContactBodies::wall(r, m, I);
+  auto bodies = apf::ContactBodies::wall(r, m, I, surfaces[surface].turning(r));
   bodies.crowding = stored_contacts(i) + (fresh ? 1 : 0);
   contacts.add(2 * k, 2 * k + 1, i, apf::ContactConstants::make(coefficient.model, bodies),
                history);

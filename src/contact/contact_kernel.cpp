@@ -83,10 +83,10 @@ struct Arrays {
             constants[4][k],  constants[5][k],  constants[6][k],  constants[7][k],
             constants[8][k],  constants[9][k],  constants[10][k], constants[11][k],
             constants[12][k], constants[13][k], constants[14][k], constants[15][k],
-            constants[16][k], constants[17][k]};
+            constants[16][k], constants[17][k], constants[18][k]};
   }
 };
-static_assert(ContactList::n_constants == 18, "Arrays::at lists every constant");
+static_assert(ContactList::n_constants == 19, "Arrays::at lists every constant");
 
 template <class Frame>
 void gather(const ContactList &list, const Bodies &b, int first, int n, Block &block)

@@ -32,7 +32,11 @@ struct SpaceFrame {
 
   APF_INLINE Tangent slip(const Vec3 &v, double vn) const { return v - vn * n; }
   APF_INLINE Tangent slip_of_spin(const Spin &spin) const { return cross(spin, n); }
-  APF_INLINE Tangent tangent(const Vec3 &t) const { return t - dot(t, n) * n; }
+  // t of another contact plane, with normal m, by the smallest rotation from m to n
+  APF_INLINE Tangent turned(const Vec3 &t, const Vec3 &m) const
+  {
+    return t - (dot(t, n) / (1.0 + dot(n, m))) * (n + m);
+  }
   APF_INLINE Vec3 force(const Tangent &t) const { return t; }
   APF_INLINE Spin torque_of_force(const Tangent &t) const { return cross(n, t); }
 };
@@ -47,7 +51,7 @@ struct PlaneFrame {
 
   APF_INLINE Tangent slip(const Vec2 &v, double) const { return n.x * v.y - n.y * v.x; }
   APF_INLINE Tangent slip_of_spin(Spin spin) const { return spin; }
-  APF_INLINE Tangent tangent(Tangent t) const { return t; }
+  APF_INLINE Tangent turned(Tangent t, const Vec2 &) const { return t; }
   APF_INLINE Vec2 force(Tangent t) const { return {-n.y * t, n.x * t}; }
   APF_INLINE Spin torque_of_force(Tangent t) const { return t; }
 };
@@ -132,7 +136,8 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
   const double neck3 = adhesion ? c.neck * c.neck * c.neck : 0.0;
   const double elastic = closed * c.K * s3 * (s3 - 6.0 * neck3);
   const double eta = closed * c.eta * s;
-  const auto d_mid = in.d + times.behind * in.v;    // where the bodies were when they had v
+  // the normal when the bodies had the velocity v
+  const auto d_mid = in.d + (times.behind * c.turning) * in.v;
   const Frame mid{(1.0 / std::sqrt(dot(d_mid, d_mid))) * d_mid};
   const double vn = dot(in.v, mid.n);
   const double kn = c.K * c.inv_R * s2;
@@ -169,8 +174,8 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
     const double eta_t = smaller(eta, stable_dashpot(kt, (2.0 / 7.0) * c.crowd_mass, times.step));
     const double limit = closed * c.mu * std::fabs(elastic + c.adhesion);
     if constexpr (sliding) {
-      const auto slip = frame.tangent(mid.slip(in.v, vn) +
-                                      mid.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j));
+      const auto slip = frame.turned(
+          mid.slip(in.v, vn) + mid.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j), mid.n);
       const auto force = slider_force(kt, eta_t, limit, slip, times.advance, memory.sliding);
       out.sliding = force;
       out.force = out.force + frame.force(force);
@@ -194,7 +199,7 @@ APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
   if constexpr (rolling) {
     const double k = c.roll_k * s3 + 1.0e-300;
     const double limit = closed * c.roll_k * s3 * c.roll_limit;
-    const auto v_roll = (-c.R) * frame.tangent(mid.slip_of_spin(in.spin_i - in.spin_j));
+    const auto v_roll = (-c.R) * frame.turned(mid.slip_of_spin(in.spin_i - in.spin_j), mid.n);
     const double eta_r = smaller(closed * c.roll_eta * s * std::sqrt(s),
                                  stable_dashpot(k, c.crowd_roll, times.step));
     const auto moment = slider_force(k, eta_r, limit, v_roll, times.advance, memory.rolling);

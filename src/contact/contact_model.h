@@ -44,12 +44,17 @@ struct ContactBodies {
   double m;                     // effective mass                                            [mass]
   double I;                     // effective moment of inertia                      [mass length^2]
   double crowding;              // contacts that share the bodies, weighted by 1/mass; alone: 1 [-]
+  double turning;    // how fast the normal turns with v_i - v_j: distance / its radius of
+                     // turning; 1 for a pair, 0 at a plane, r/R_wall at a curved wall [-]
 
   static ContactBodies pair(double ri, double rj, double m_eff, double I_eff)
   {
-    return {ri, rj, 0.5, ri * rj / (ri + rj), m_eff, I_eff, 1.0};
+    return {ri, rj, 0.5, ri * rj / (ri + rj), m_eff, I_eff, 1.0, 1.0};
   }
-  static ContactBodies wall(double r, double m, double I) { return {r, 0.0, 1.0, r, m, I, 1.0}; }
+  static ContactBodies wall(double r, double m, double I, double turning = 0.0)
+  {
+    return {r, 0.0, 1.0, r, m, I, 1.0, turning};
+  }
 };
 
 // Every coefficient multiplies a power of s = sqrt(a/R), see jkr.h.
@@ -72,6 +77,7 @@ struct ContactConstants {
   double roll_eta;         // rolling damping: roll_eta s^(3/2)                 [force time/length]
   double crowd_mass;       // m / crowding                                                   [mass]
   double crowd_roll;       // I / (R crowding)                                        [mass length]
+  double turning;          // see ContactBodies                                                 [-]
 
   static ContactConstants make(const ContactModel &model, const ContactBodies &bodies)
   {
@@ -102,6 +108,7 @@ struct ContactConstants {
     c.roll_eta = 2.0 * model.zeta * std::sqrt(c.roll_k * bodies.I / bodies.R);
     c.crowd_mass = bodies.m / bodies.crowding;
     c.crowd_roll = bodies.I / (bodies.R * bodies.crowding);
+    c.turning = bodies.turning;
     return c;
   }
 };

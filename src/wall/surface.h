@@ -47,6 +47,13 @@ struct Surface {
     at[d2] = origin[1] + radius * e2;
   }
 
+  // how fast the normal of a particle of radius r turns as it moves along: r / distance from the
+  // axis, < 0 inside a cylinder, where the normal points outward [-]
+  double turning(double r) const
+  {
+    return shape == Shape::plane ? 0.0 : side * r / (radius + side * r);
+  }
+
   // the two dimensions across the plane's normal or the cylinder's axis
   int first() const { return dim == 0 ? 1 : 0; }
   int second() const { return dim == 2 ? 1 : 2; }

@@ -78,7 +78,7 @@ struct Crowd {
   {
     std::fill(f.begin(), f.end(), 0.0);
     std::fill(torque.begin(), torque.end(), 0.0);
-    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, dt, parts);
+    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, {dt, 0.0, 0.0}, parts);
   }
   void evaluate(double dt, ContactParts *parts = nullptr)
   {
@@ -220,7 +220,7 @@ TEST(Kernel, forces_are_added_to_what_is_there)
   contact_kernel(again.choice)(
       again.list,
       {again.x.data(), again.v.data(), again.omega.data(), again.f.data(), again.torque.data()},
-      0.0, nullptr);
+      {0.0, 0.0, 0.0}, nullptr);
   for (size_t c = 0; c < crowd.f.size(); c++) {
     EXPECT_NEAR(again.f[c] - 3.0, crowd.f[c], 1e-13 * largest(crowd.f));
     EXPECT_NEAR(again.torque[c] + 2.0, crowd.torque[c], 1e-13 * largest(crowd.f));

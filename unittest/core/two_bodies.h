@@ -125,30 +125,24 @@ struct TwoBodies {
     list.add(forwards, !forwards, 0, constants, history);
   }
 
-  // The kernel alone, with what it is to be called with.
-  void contact_forces(double dt)
+  // The kernel alone; velocities are older than positions by `behind`.
+  void contact_forces(double dt, double behind = 0.0)
   {
     if (wall) std::copy(x + 1, x + 3, x + 4);
     std::fill(f, f + 6, 0.0);
     std::fill(torque, torque + 6, 0.0);
-    if (list.size()) kernel(list, {x, v, omega, f, torque}, dt, &parts);
+    if (list.size()) kernel(list, {x, v, omega, f, torque}, {dt, behind, dt}, &parts);
   }
 
   bool ended() const { return list.size() == 0 || list.ended(0); }
 
-  // One step of velocity Verlet. The velocities that the kernel sees are extrapolated to the time
-  // of the positions. An ended contact is left to the caller.
+  // One step of velocity Verlet. The kernel sees the velocities of half a step before, as LAMMPS
+  // has them then. An ended contact is left to the caller.
   void step(double dt)
   {
     kick(0.5 * dt);
     for (int c = 0; c < 6; c++) x[c] += dt * v[c];
-    double half[12];
-    std::copy(v, v + 6, half);
-    std::copy(omega, omega + 6, half + 6);
-    kick(0.5 * dt);
-    contact_forces(dt);
-    std::copy(half, half + 6, v);
-    std::copy(half + 6, half + 12, omega);
+    contact_forces(dt, 0.5 * dt);
     kick(0.5 * dt);
   }
 

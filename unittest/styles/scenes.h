@@ -60,7 +60,10 @@ inline const std::string adhesive =
     "pair_style granular/adhesive\npair_coeff * *" + jkr + all_friction + "\n";
 
 constexpr double dt = 1.0 / 16384.0;    // a power of two: positions of moving scenes are exact
-inline double snap(double x) { return std::round(x * 1073741824.0) / 1073741824.0; }
+inline double snap(double x)
+{
+  return std::round(x * 1073741824.0) / 1073741824.0;
+}
 
 struct Sphere {
   double x, y, z, d = 1.0;
@@ -72,7 +75,7 @@ struct Scene {
   std::string before;              // commands before the box is made
   std::string style = adhesive;    // pair style, walls
   int types = 1;
-  std::vector<int> ids, type;      // of the spheres; 1, 2, ... and 1
+  std::vector<int> ids, type;    // of the spheres; 1, 2, ... and 1
 };
 
 inline void build(Simulation &sim, const std::vector<Sphere> &spheres, const Scene &scene = Scene())
@@ -80,8 +83,9 @@ inline void build(Simulation &sim, const std::vector<Sphere> &spheres, const Sce
   sim.run("newton " + scene.newton + "\nprocessors " + scene.processors + "\n" + scene.before +
           "\nboundary " + scene.boundary +
           "\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
-          "region box block " + scene.box + "\ncreate_box " + std::to_string(scene.types) +
-          " box\ntimestep " + std::to_string(dt) + "\n");
+          "region box block " +
+          scene.box + "\ncreate_box " + std::to_string(scene.types) + " box\ntimestep " +
+          std::to_string(dt) + "\n");
   sim.lammps()->update->dt = dt;    // all digits
   std::vector<double> x;
   std::vector<int> ids = scene.ids, types = scene.type;
@@ -149,8 +153,8 @@ inline void set_motion(Simulation &sim, int id, const std::vector<double> &v,
                        const std::vector<double> &omega)
 {
   char line[256];
-  snprintf(line, sizeof(line), "set atom %d vx %.17g vy %.17g vz %.17g omega %.17g %.17g %.17g", id, v[0],
-           v[1], v[2], omega[0], omega[1], omega[2]);
+  snprintf(line, sizeof(line), "set atom %d vx %.17g vy %.17g vz %.17g omega %.17g %.17g %.17g", id,
+           v[0], v[1], v[2], omega[0], omega[1], omega[2]);
   sim.run(line);
 }
 
@@ -173,7 +177,8 @@ inline std::string scratch_file(const std::string &name)
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   const auto *test = testing::UnitTest::GetInstance()->current_test_info();
   return (std::filesystem::temp_directory_path() /
-          ("apf-" + std::string(test->name()) + "-" + std::to_string(ranks) + "-" + name)).string();
+          ("apf-" + std::string(test->name()) + "-" + std::to_string(ranks) + "-" + name))
+      .string();
 }
 
 inline int number_of_ranks()

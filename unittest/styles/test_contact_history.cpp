@@ -14,7 +14,8 @@ const std::vector<std::string> both = {"on", "off"};
 std::vector<Sphere> doublet(double overlap, double x = 3.0, double y = 3.0, double z = 3.0)
 {
   const double distance = 1.0 - overlap;
-  return {{snap(x + 0.48 * distance), snap(y + 0.64 * distance), snap(z + 0.6 * distance)}, {x, y, z}};
+  return {{snap(x + 0.48 * distance), snap(y + 0.64 * distance), snap(z + 0.6 * distance)},
+          {x, y, z}};
 }
 
 // sliding, rolling and twisting springs, none at its limit
@@ -159,8 +160,9 @@ void expect_neck_kept(const std::vector<Sphere> &spheres, const Scene &scene, in
   const double d1 = spheres[0].d, d2 = spheres[1].d;
   const auto curve = material.pair(d1, d2);
   // the contact is made at an overlap, then stretched along x to -0.9 delta_C
-  const double stretch = snap(spheres[1].x + (spheres[0].x + 0.5 * (d1 + d2) + 0.9 * curve.delta_C() -
-                                               spheres[1].x)) - spheres[1].x;
+  const double stretch =
+      snap(spheres[1].x + (spheres[0].x + 0.5 * (d1 + d2) + 0.9 * curve.delta_C() - spheres[1].x)) -
+      spheres[1].x;
   char line[256];
   sim.run("neighbor 1e-6 bin\nneigh_modify delay 0 every 1 check no\nrun 0");
   snprintf(line, sizeof(line),
@@ -184,7 +186,7 @@ TEST(RanksContactHistory, neck_is_kept_through_rebuilds)
     Scene scene;
     scene.newton = newton;
     expect_neck_kept({{3.0, 3.0, 3.0}, {snap(3.99), 3.0, 3.0}}, scene,
-                       number_of_ranks() == 1 ? 10000 : 1000);
+                     number_of_ranks() == 1 ? 10000 : 1000);
     expect_neck_kept({{3.0, 3.0, 3.0, 2.0}, {snap(4.095), 3.0, 3.0, 0.2}}, scene, 500);
     // across the periodic boundary (positions beyond the box are wrapped) and the ranks' one
     expect_neck_kept({{snap(7.6), 3.0, 3.0}, {snap(8.59), 3.0, 3.0}}, scene, 500);
@@ -219,7 +221,8 @@ TEST(RanksContactHistory, springs_travel_through_periodic_cells_and_ranks)
 {
   const State twin = interior_twin(squeezed);
   ASSERT_GT(largest(twin.torque), 0.1);
-  const std::string often = "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check yes binsize 2\n";
+  const std::string often =
+      "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check yes binsize 2\n";
   for (const auto &newton : both)
     for (const char *velocity : {"64 32 16", "-32 -64 128"}) {
       Scene scene;
@@ -235,7 +238,8 @@ TEST(RanksContactHistory, springs_travel_along_each_decomposition)
 {
   const State twin = interior_twin(squeezed);
   const std::string n = std::to_string(number_of_ranks());
-  const std::string every_step = "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check no binsize 2\n";
+  const std::string every_step =
+      "neighbor 0.125 bin\nneigh_modify delay 0 every 1 check no binsize 2\n";
   for (const std::string &processors : {n + " 1 1", "1 " + n + " 1", "1 1 " + n}) {
     Scene scene;
     scene.processors = processors;
@@ -250,9 +254,9 @@ TEST(RanksContactHistory, springs_travel_through_a_tiled_decomposition)
   for (const auto &newton : both) {
     Scene scene;
     scene.newton = newton;
-    const std::string tiled =
-        "comm_style tiled\ncomm_modify vel yes\nneighbor 0.125 bin\nneigh_modify delay 0 every 1 check no binsize 2\n"
-        "fix rcb all balance 50 1.0 rcb\n";
+    const std::string tiled = "comm_style tiled\ncomm_modify vel yes\nneighbor 0.125 "
+                              "bin\nneigh_modify delay 0 every 1 check no binsize 2\n"
+                              "fix rcb all balance 50 1.0 rcb\n";
     SCOPED_TRACE(newton);
     expect_same_loads(travelled(squeezed, scene, tiled, "64 32 16"), twin, tight);
   }
@@ -281,9 +285,11 @@ TEST(RanksContactHistory, stretched_necks_travel_too)
 // ---------------------------------------------------------------------------------------------
 // runs that stop and go on
 
-const std::string lossy = " jkr 1.0e6 0.25 100.0 damping tsuji 0.5 sliding 0.3 twisting yes rolling 0.02 ";
+const std::string lossy =
+    " jkr 1.0e6 0.25 100.0 damping tsuji 0.5 sliding 0.3 twisting yes rolling 0.02 ";
 const std::string bottom = "fix wall all wall/levelset plane z 0 NULL" + lossy + "\n";
-const std::string dynamics = "fix nve all nve/sphere\nfix pull all gravity 50 vector 1 0.5 -1\n" + bottom;
+const std::string dynamics =
+    "fix nve all nve/sphere\nfix pull all gravity 50 vector 1 0.5 -1\n" + bottom;
 
 // three spheres, in contact with each other and, the lower two, with the wall, that slip and roll;
 // overlaps differ from those at rest
@@ -331,7 +337,8 @@ TEST(RanksContactHistory, restart_goes_on)
   for (const auto &newton : both) {
     double begun = 0.0;
     const State reference = unbroken(newton, &begun);
-    for (const std::string &way : {"run 150\nwrite_restart " + file, "restart 150 " + file + "\nrun 400"}) {
+    for (const std::string &way :
+         {"run 150\nwrite_restart " + file, "restart 150 " + file + "\nrun 400"}) {
       Simulation first;
       build_pile(first, newton);
       first.run(dynamics + way);

@@ -21,7 +21,8 @@ void build_loaded(Simulation &sim, const std::string &newton, double x = 3.0)
 {
   Scene scene;
   scene.newton = newton;
-  scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "damping alpha 0.4" + all_friction + "\n";
+  scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "damping alpha 0.4" +
+      all_friction + "\n";
   build(sim, {{x, 3.0, 3.0}, {x + 1.0 - overlap, 3.0, 3.0}}, scene);
   load_springs(sim, 64, {0.0, 0.05, 0.0}, {0.1, 0.0, 0.4}, {-0.1, 0.0, -0.4});
   set_motion(sim, 1, {0.25, 0.0, 0.0}, {0.0, 0.0, 0.0});
@@ -55,8 +56,11 @@ TEST(RanksPairOutput, pair_local_gives_each_part)
       sim.run("compute id all property/local patom1\n"
               "compute c all pair/local dist force p1 p2 p3 p4 p5 p6 p7 p8 p9 p10 p11\n"
               "compute i all reduce sum c_id inputs local\n"
-              "compute s all reduce sum c_c[*] inputs local\nthermo_style custom step c_i c_s[*]\nrun 0");
-      auto part = [&](int n) { return sim.value("c_s[" + std::to_string(2 + n) + "]"); };
+              "compute s all reduce sum c_c[*] inputs local\nthermo_style custom step c_i "
+              "c_s[*]\nrun 0");
+      auto part = [&](int n) {
+        return sim.value("c_s[" + std::to_string(2 + n) + "]");
+      };
       SCOPED_TRACE(newton);
       EXPECT_NEAR(sim.value("c_s[1]"), 1.0 - overlap, 1e-12);
       EXPECT_NEAR(sim.value("c_s[2]") / (is.elastic + is.damping), 1.0, 1e-9);
@@ -64,7 +68,8 @@ TEST(RanksPairOutput, pair_local_gives_each_part)
       EXPECT_NEAR(part(2) / is.a, 1.0, 1e-9);
       EXPECT_NEAR(part(3) / is.elastic, 1.0, 1e-9);
       EXPECT_NEAR(part(4) / is.damping, 1.0, 1e-9);
-      const double sign = sim.value("c_i") == 1.0 ? 1.0 : -1.0;    // of parts: those on the first atom
+      const double sign = sim.value("c_i") == 1.0 ? 1.0
+                                                  : -1.0;    // of parts: those on the first atom
       EXPECT_NEAR(part(6) / (-sign * is.sliding), 1.0, 1e-9);
       EXPECT_NEAR(part(10) / (-sign * is.rolling), 1.0, 1e-9);
       EXPECT_NEAR(part(11) / is.twisting, -1.0, 1e-9);
@@ -79,14 +84,18 @@ TEST(RanksPairOutput, energies_by_part)
   for (const auto &newton : both) {
     Simulation sim;
     build_loaded(sim, newton);
-    sim.run("compute e all pair granular/adhesive\nthermo_style custom step pe c_e[*]\nthermo_modify norm no\nrun 0");
+    sim.run("compute e all pair granular/adhesive\nthermo_style custom step pe "
+            "c_e[*]\nthermo_modify norm no\nrun 0");
     // zero at the virtual state a = 0: U(equilibrium) = -1.453696 F_C delta_C, table A5
-    const double U = -1.453696 * curve.F_C() * curve.delta_C() + work(curve, curve.delta_eq(), overlap);
+    const double U =
+        -1.453696 * curve.F_C() * curve.delta_C() + work(curve, curve.delta_eq(), overlap);
     const std::vector<double> parts = {U, 0.5 * is.k_T * 0.0025 * t * t,
-                                       0.5 * is.k_roll * is.xi * is.xi / 0.25, 0.5 * is.twisting * 0.2 * t};
+                                       0.5 * is.k_roll * is.xi * is.xi / 0.25,
+                                       0.5 * is.twisting * 0.2 * t};
     double sum = 0.0;
     for (int n = 0; n < 4; n++) {
-      EXPECT_NEAR(sim.value("c_e[" + std::to_string(n + 1) + "]") / parts[n], 1.0, 1e-5) << newton << n;
+      EXPECT_NEAR(sim.value("c_e[" + std::to_string(n + 1) + "]") / parts[n], 1.0, 1e-5)
+          << newton << n;
       sum += parts[n];
     }
     EXPECT_NEAR(sim.value("pe") / sum, 1.0, 1e-5);
@@ -121,7 +130,8 @@ TEST(RanksPairOutput, group_group_is_the_normal_force)
   for (const auto &newton : both) {
     Simulation sim;
     build_loaded(sim, newton);
-    sim.run("group a id 1\ngroup b id 2\ncompute g a group/group b\nthermo_style custom step c_g[*]\nrun 0");
+    sim.run("group a id 1\ngroup b id 2\ncompute g a group/group b\nthermo_style custom step "
+            "c_g[*]\nrun 0");
     EXPECT_NEAR(sim.value("c_g[1]") / -(is.elastic + is.damping), 1.0, 1e-9) << newton;
   }
 }
@@ -169,7 +179,8 @@ TEST(PairOutput, a_cycle_of_adhesion_costs_what_jkr_says)
 // beside other commands
 
 // The doublet is loaded by the style's own scene, then the commands; forces as without them?
-State loaded(const std::string &commands, const std::vector<Sphere> &others = {}, Scene scene = Scene())
+State loaded(const std::string &commands, const std::vector<Sphere> &others = {},
+             Scene scene = Scene())
 {
   Simulation sim;
   std::vector<Sphere> spheres = {{3.0, 3.0, 3.0}, {3.99, 3.0, 3.0}};
@@ -187,13 +198,20 @@ TEST(RanksPairOutput, beside_commands_that_add_and_delete_particles)
   const State twin = loaded("");
   ASSERT_GT(largest(twin.torque), 0.1);
   const std::vector<Sphere> others = {{6.0, 6.0, 6.0}, {6.99, 6.0, 6.0}, {1.0, 6.0, 1.0}};
-  expect_same_loads(loaded("group out id 3 4\ndelete_atoms group out compress no", {{6, 6, 6}, {6.99, 6, 6}}), twin,
-                    1e-12);
+  expect_same_loads(
+      loaded("group out id 3 4\ndelete_atoms group out compress no", {{6, 6, 6}, {6.99, 6, 6}}),
+      twin, 1e-12);
   expect_same_loads(loaded("region up block 0 8 0 8 7 8\ngroup new empty\n"
-                           "fix dep new deposit 5 1 10 777 region up units box\nrun 60", others), twin, 1e-12);
-  expect_same_loads(loaded("create_atoms 1 single 1 1 1 units box\nset atom 3 diameter 1 density 1"), twin, 1e-12);
+                           "fix dep new deposit 5 1 10 777 region up units box\nrun 60",
+                           others),
+                    twin, 1e-12);
+  expect_same_loads(
+      loaded("create_atoms 1 single 1 1 1 units box\nset atom 3 diameter 1 density 1"), twin,
+      1e-12);
   expect_same_loads(loaded("region all block 0 8 0 8 0 8\ngroup out id 3 4 5\n"
-                           "fix ev out evaporate 1 1 all 4321\nrun 10\nunfix ev", others), twin, 1e-12);
+                           "fix ev out evaporate 1 1 all 4321\nrun 10\nunfix ev",
+                           others),
+                    twin, 1e-12);
 }
 
 // delete_atoms numbers the particles that stay anew unless told "compress no": springs must follow,
@@ -219,10 +237,13 @@ TEST(RanksPairOutput, with_hybrid_styles)
   const State twin = loaded("");
   const std::string law = "granular/adhesive" + jkr + all_friction + "\n";
   Scene scene;
-  scene.style = "pair_style hybrid/overlay granular/adhesive zero 2.0\npair_coeff * * zero\npair_coeff * * " + law;
+  scene.style =
+      "pair_style hybrid/overlay granular/adhesive zero 2.0\npair_coeff * * zero\npair_coeff * * " +
+      law;
   expect_same_loads(loaded("neigh_modify delay 0 every 1 check no\nrun 5", {}, scene), twin, 1e-12);
   scene.types = 2;
-  scene.style = "pair_style hybrid granular/adhesive zero 2.0\npair_coeff 1 1 " + law + "pair_coeff * 2 zero\n";
+  scene.style = "pair_style hybrid granular/adhesive zero 2.0\npair_coeff 1 1 " + law +
+      "pair_coeff * 2 zero\n";
   expect_same_loads(loaded("run 5", {}, scene), twin, 1e-12);
 }
 
@@ -236,11 +257,14 @@ TEST(RanksPairOutput, excluded_pairs_do_not_touch)
   EXPECT_NEAR(f[1] / -material.pair().force(0.01), 1.0, 1e-9);
 
   Simulation bonded;
-  bonded.run("atom_style hybrid sphere bond\natom_modify map array\ncomm_modify vel yes\nspecial_bonds lj 0 1 1\n"
-             "region box block 0 8 0 8 0 8\ncreate_box 1 box bond/types 1 extra/bond/per/atom 2 "
-             "extra/special/per/atom 4\ncreate_atoms 1 single 3 3 3\ncreate_atoms 1 single 3.99 3 3\n"
-             "create_atoms 1 single 3 3.99 3\nset group all diameter 1 density 1\nbond_style zero\nbond_coeff *\n" +
-             adhesive + "create_bonds single/bond 1 1 2 special yes\nrun 0");
+  bonded.run(
+      "atom_style hybrid sphere bond\natom_modify map array\ncomm_modify vel yes\nspecial_bonds lj "
+      "0 1 1\n"
+      "region box block 0 8 0 8 0 8\ncreate_box 1 box bond/types 1 extra/bond/per/atom 2 "
+      "extra/special/per/atom 4\ncreate_atoms 1 single 3 3 3\ncreate_atoms 1 single 3.99 3 3\n"
+      "create_atoms 1 single 3 3.99 3\nset group all diameter 1 density 1\nbond_style "
+      "zero\nbond_coeff *\n" +
+      adhesive + "create_bonds single/bond 1 1 2 special yes\nrun 0");
   const auto g = gather(bonded, "f");
   EXPECT_EQ(g[0], 0.0);
   EXPECT_NEAR(g[1] / -material.pair().force(0.01), 1.0, 1e-9);
@@ -255,16 +279,21 @@ TEST(RanksPairOutput, write_data_keeps_acting)
     Scene scene;
     scene.types = 2;
     scene.type = {1, 2};
-    scene.style = "pair_style granular/adhesive\npair_coeff 1 1 jkr 1e6 0.25 100 damping tsuji 0.7 sliding 0.2\n"
+    scene.style = "pair_style granular/adhesive\npair_coeff 1 1 jkr 1e6 0.25 100 damping tsuji 0.7 "
+                  "sliding 0.2\n"
                   "pair_coeff 2 2 jkr 3e6 0.1 50 damping tsuji 0.3 sliding 0.4 rolling 0.02 0.1\n" +
-        std::string(named ? "pair_coeff 1 2 jkr 2e6 0.3 40 damping alpha 0.5 sliding 0.25 twisting yes break force "
-                            "scale_stiffness 0.5\n" : "");
+        std::string(named ? "pair_coeff 1 2 jkr 2e6 0.3 40 damping alpha 0.5 sliding 0.25 twisting "
+                            "yes break force "
+                            "scale_stiffness 0.5\n"
+                          : "");
     build(sim, {{3.0, 3.0, 3.0}, {3.99, 3.0, 3.0}}, scene);
     set_motion(sim, 1, {0.4, 0.3, 0.0}, {1.0, 2.0, 0.5});
     set_motion(sim, 2, {0.0, 0.0, 0.2}, {-1.0, 0.0, 0.2});
     sim.run("run 0\nwrite_data " + file + " pair " + pairs);
-    again.run("atom_style sphere\natom_modify map array\ncomm_modify vel yes\npair_style granular/adhesive\n"
-              "read_data " + file + "\ntimestep " + number(dt));
+    again.run("atom_style sphere\natom_modify map array\ncomm_modify vel yes\npair_style "
+              "granular/adhesive\n"
+              "read_data " +
+              file + "\ntimestep " + number(dt));
     sim.run("run 1");
     again.run("run 1");
     SCOPED_TRACE(pairs);
@@ -290,7 +319,8 @@ TEST(RanksPairOutput, effective_mass_of_frozen_and_rigid)
     return (v[3] - v[0]) / 2.0;
   };
   EXPECT_NEAR(ratio("fix still rest freeze", {{3, 3, 3}, {4.002, 3, 3}}), 0.5, 0.0025);
-  EXPECT_NEAR(ratio("fix body rest rigid single", {{3, 3, 3}, {4.002, 3, 3}, {5.2, 3, 3}}), 0.5, 0.0025);
+  EXPECT_NEAR(ratio("fix body rest rigid single", {{3, 3, 3}, {4.002, 3, 3}, {5.2, 3, 3}}), 0.5,
+              0.0025);
 }
 
 }    // namespace

@@ -59,7 +59,9 @@ TEST(RanksRespa, springs_grow_with_the_inner_step)
   const std::string style = "pair_style granular/adhesive\npair_coeff * *" + sticky +
       "\nfix wall all wall/levelset plane z 0 NULL" + sticky + "\n";
   for (const auto &[commands, runs] : std::vector<std::pair<std::string, int>>{
-           {"", 80}, {respa(10), 8}, {respa(10) + "fix_modify wall respa 1\n", 8},
+           {"", 80},
+           {respa(10), 8},
+           {respa(10) + "fix_modify wall respa 1\n", 8},
            {"run_style respa 3 2 5 pair 1\n" + step(10 * dt), 8}}) {
     Simulation sim;
     build(sim, {{3.0, 4.0, 0.48}, {3.99, 4.0, 0.48 + 1e-300}}, scene_with(style));
@@ -81,7 +83,8 @@ void build_pile(Simulation &sim)
   set_motion(sim, 2, {0.5, 1.0, 0.0}, {-2.0, 4.0, 1.0});
   set_motion(sim, 3, {2.0, 0.0, -1.0}, {0.0, -3.0, -2.0});
 }
-const std::string dynamics = "fix nve all nve/sphere\nfix g all gravity 500 vector 1 0.5 -1\n" + wall;
+const std::string dynamics =
+    "fix nve all nve/sphere\nfix g all gravity 500 vector 1 0.5 -1\n" + wall;
 
 State after(const std::string &style, int runs)
 {
@@ -117,10 +120,11 @@ TEST(RanksRespa, error_is_of_second_order_in_the_outer_step)
 {
   auto after_swing = [](const std::string &commands, int runs) {
     Simulation sim;
-    build(sim, {{3.0, 4.0, 4.0}, {3.98, 4.0, 4.0}}, scene_with("pair_style granular/adhesive\npair_coeff * *" + jkr));
+    build(sim, {{3.0, 4.0, 4.0}, {3.98, 4.0, 4.0}},
+          scene_with("pair_style granular/adhesive\npair_coeff * *" + jkr));
     set_motion(sim, 1, {0.2, 0.5, 0.0}, {0.0, 0.0, 0.0});
-    sim.run("group first id 1\nfix nve all nve/sphere\nfix hang first spring/self 5000\n" + commands +
-            "run " + std::to_string(runs));
+    sim.run("group first id 1\nfix nve all nve/sphere\nfix hang first spring/self 5000\n" +
+            commands + "run " + std::to_string(runs));
     return state_of(sim);
   };
   const State verlet = after_swing("", 960);
@@ -134,9 +138,11 @@ TEST(RanksRespa, sphere_on_a_wall_does_not_creep)
 {
   auto place = [](const std::string &commands, int first, int second) {
     Simulation sim;
-    build(sim, {{4.0, 4.0, 0.4911}}, scene_with(pair + "fix wall all wall/levelset plane z 0 NULL" + jkr +
-                                                "damping tsuji 0.1 sliding 0.5 rolling 0.01 0.5\n"));
-    sim.run("fix nve all nve/sphere\nfix push all addforce 4.5 0 0\n" + commands + "run " + std::to_string(first));
+    build(sim, {{4.0, 4.0, 0.4911}},
+          scene_with(pair + "fix wall all wall/levelset plane z 0 NULL" + jkr +
+                     "damping tsuji 0.1 sliding 0.5 rolling 0.01 0.5\n"));
+    sim.run("fix nve all nve/sphere\nfix push all addforce 4.5 0 0\n" + commands + "run " +
+            std::to_string(first));
     const double early = gather(sim, "x")[0];
     sim.run("run " + std::to_string(second));
     return gather(sim, "x")[0] - early;
@@ -169,7 +175,8 @@ TEST(RanksRespa, restart_goes_on)
 {
   const std::string file = scratch_file("restart");
   const State reference = after(respa(8), 100);
-  for (const std::string &way : {"run 40\nwrite_restart " + file, "restart 40 " + file + "\nrun 100"}) {
+  for (const std::string &way :
+       {"run 40\nwrite_restart " + file, "restart 40 " + file + "\nrun 100"}) {
     Simulation first;
     build_pile(first);
     first.run(dynamics + respa(8) + way);

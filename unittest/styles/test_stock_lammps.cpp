@@ -90,7 +90,8 @@ TEST(Stock_StockLammps, sticking_velocity_is_seven_tenths_of_jkr)
 double pull_at_wall(const std::string &wall, double separation)
 {
   Simulation sim;
-  build(sim, {{3.0, 3.0, 0.49}}, scene_with("pair_style zero 1.5\npair_coeff * *\n" + wall, "p p f"));
+  build(sim, {{3.0, 3.0, 0.49}},
+        scene_with("pair_style zero 1.5\npair_coeff * *\n" + wall, "p p f"));
   sim.run("run 1\ndisplace_atoms all move 0 0 " + number(0.01 + separation) + " units box\nrun 1");
   return -gather(sim, "f")[2] / material.wall().F_C();
 }
@@ -161,7 +162,8 @@ TEST(Stock_StockLammps, exchange_of_i_and_j_turns_rolling_round)
 {
   // no sliding spring: it would hide the rolling moment, which is small here
   EXPECT_NEAR(swap_error("pair_style granular\npair_coeff * * jkr 1e6 0 0.25 100 tangential "
-                         "linear_nohistory 0 0 rolling sds 2000 0 0.02"), 2.0, 0.01);
+                         "linear_nohistory 0 0 rolling sds 2000 0 0.02"),
+              2.0, 0.01);
 }
 
 // tangential force after the same time under r-RESPA, 10 inner steps, over that under Verlet
@@ -200,8 +202,10 @@ TEST(Stock_StockLammps, wall_acts_at_the_outermost_level_only)
 {
   Simulation sim;
   build(sim, {{3.0, 3.0, 0.49}},
-        scene_with(adhesive + "fix w all wall/gran granular hertz/material 1e6 0 0.25 tangential "
-                              "linear_nohistory 0 0 zplane 0 NULL\n", "p p f"));
+        scene_with(adhesive +
+                       "fix w all wall/gran granular hertz/material 1e6 0 0.25 tangential "
+                       "linear_nohistory 0 0 zplane 0 NULL\n",
+                   "p p f"));
   EXPECT_NE(sim.error_of("run_style respa 2 10 pair 1\nfix_modify w respa 1"), "");
 }
 
@@ -267,8 +271,10 @@ TEST(Stock_StockLammps, wall_reports_no_total_force)
 {
   Simulation sim;
   build(sim, {{3.0, 3.0, 0.49}},
-        scene_with(adhesive + "fix w all wall/gran granular hertz/material 1e6 0 0.25 tangential "
-                              "linear_nohistory 0 0 zplane 0 NULL\n", "p p f"));
+        scene_with(adhesive +
+                       "fix w all wall/gran granular hertz/material 1e6 0 0.25 tangential "
+                       "linear_nohistory 0 0 zplane 0 NULL\n",
+                   "p p f"));
   sim.run("run 0");
   EXPECT_NE(sim.error_of("print \"$(f_w[3])\""), "");
 }
@@ -278,7 +284,8 @@ TEST(StockLammps, restitution_goes_with_adhesion_and_is_exact)
   Simulation sim;
   build(sim, {{3.0, 3.0, 3.0}}, scene_with(adhesive));
   EXPECT_EQ(sim.error_of("pair_coeff * *" + jkr + "damping tsuji 0.5\nrun 0"), "");
-  const std::string hertz = "pair_style granular/adhesive\npair_coeff * * jkr 1e6 0.25 0 damping tsuji ";
+  const std::string hertz =
+      "pair_style granular/adhesive\npair_coeff * * jkr 1e6 0.25 0 damping tsuji ";
   for (const double e : {0.9, 0.5, 0.2})
     EXPECT_NEAR(restitution(hertz + number(e), 2.0) / e, 1.0, 0.005);
 }
@@ -288,8 +295,11 @@ TEST(Stock_StockLammps, restitution_is_refused_with_adhesion_and_too_high)
   for (const char *law : {"tsuji", "coeff_restitution"}) {
     Simulation sim;
     build(sim, {{3.0, 3.0, 3.0}}, scene_with("pair_style granular"));
-    EXPECT_NE(sim.error_of("pair_coeff * * jkr 1e6 0.5 0.25 100 tangential linear_nohistory 0 0 damping " +
-                           std::string(law) + "\nrun 0"), "") << law;
+    EXPECT_NE(sim.error_of(
+                  "pair_coeff * * jkr 1e6 0.5 0.25 100 tangential linear_nohistory 0 0 damping " +
+                  std::string(law) + "\nrun 0"),
+              "")
+        << law;
   }
   auto tsuji = [](double e) {
     return "pair_style granular\npair_coeff * * hertz/material 1e6 " + number(e) +

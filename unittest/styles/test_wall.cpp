@@ -65,7 +65,8 @@ TEST(Wall, plane_scene)
   scene.before = "dimension 2";
   scene.box = "0 8 0 8 -0.5 0.5";
   build(sim, {{4.0, 0.49, 0.0}}, scene);
-  sim.run("fix nve all nve/sphere\nfix g all gravity 400 vector 0 -1 0\nfix flat all enforce2d\nrun 5000");
+  sim.run("fix nve all nve/sphere\nfix g all gravity 400 vector 0 -1 0\nfix flat all "
+          "enforce2d\nrun 5000");
   EXPECT_NEAR(0.5 - gather(sim, "x")[1], overlap_under(400.0 * mass), 1e-7);
   EXPECT_EQ(gather(sim, "x")[0], 4.0);
 }
@@ -75,7 +76,8 @@ TEST(Wall, corner_and_slit_hold_two_contacts)
   Simulation corner;
   build(corner, {{0.49, 4.0, 0.49}},
         at_wall("fix a all wall/levelset plane x 0 NULL" + quiet +
-                    "\nfix b all wall/levelset plane z 0 NULL" + quiet, "f p f"));
+                    "\nfix b all wall/levelset plane z 0 NULL" + quiet,
+                "f p f"));
   corner.run("fix nve all nve/sphere\nfix g all gravity 400 vector -3 0 -4\nrun 5000");
   EXPECT_NEAR(0.5 - gather(corner, "x")[0], overlap_under(240.0 * mass), 1e-7);
   EXPECT_NEAR(0.5 - gather(corner, "x")[2], overlap_under(320.0 * mass), 1e-7);
@@ -121,10 +123,13 @@ Pushed pushed(double share)
   const double arm = 0.5 - curve.delta_eq(), crit = 4.0 * curve.F_C() * 0.01 * 0.5 / arm;
   Simulation sim;
   build(sim, {{4.0, 4.0, arm}},
-        at_wall("fix wall all wall/levelset plane z 0 NULL" + quiet + "sliding 0.5 rolling 0.01 0.5"));
-  sim.run("variable F equal " + number(share * crit) + "*ramp(0,1)\nfix nve all nve/sphere\n"
+        at_wall("fix wall all wall/levelset plane z 0 NULL" + quiet +
+                "sliding 0.5 rolling 0.01 0.5"));
+  sim.run("variable F equal " + number(share * crit) +
+          "*ramp(0,1)\nfix nve all nve/sphere\n"
           "fix push all addforce v_F 0 0\nthermo 1000000\nrun 20000\nunfix push\n"
-          "fix push all addforce " + number(share * crit) + " 0 0\nrun 10000");
+          "fix push all addforce " +
+          number(share * crit) + " 0 0\nrun 10000");
   Pushed result;
   result.early = gather(sim, "x")[0] - 4.0;
   sim.run("run 70000");
@@ -156,7 +161,8 @@ TEST(Wall, sphere_rolls_above_the_limit)
   const double arm = 0.5 - curve.delta_eq(), crit = 4.0 * curve.F_C() * 0.01 * 0.5 / arm;
   Simulation sim;
   build(sim, {{4.0, 4.0, arm}},
-        at_wall("fix wall all wall/levelset plane z 0 NULL" + quiet + "sliding 0.5 rolling 0.01 0.5"));
+        at_wall("fix wall all wall/levelset plane z 0 NULL" + quiet +
+                "sliding 0.5 rolling 0.01 0.5"));
   sim.run("fix nve all nve/sphere\nfix push all addforce " + number(2.0 * crit) + " 0 0\nrun 4000");
   const double v0 = gather(sim, "v")[0];
   sim.run("run 4000");
@@ -183,7 +189,8 @@ TEST(Wall, restitution_of_tsuji_is_exact)
 {
   for (const double e : {0.9, 0.5, 0.2})
     for (const double v : {1.0, 3.0})
-      EXPECT_NEAR(rebound(" jkr 1.0e6 0.25 0 damping tsuji " + number(e), v, 0.3) / (e * v), 1.0, 0.005);
+      EXPECT_NEAR(rebound(" jkr 1.0e6 0.25 0 damping tsuji " + number(e), v, 0.3) / (e * v), 1.0,
+                  0.005);
 }
 
 TEST(Wall, sticking_velocity_is_that_of_jkr)
@@ -205,10 +212,12 @@ TEST(Wall, contacts_begun_and_ended_are_counted)
   build(sim, {{4.0, 4.0, 0.505}}, at_wall("fix wall all wall/levelset plane z 0 NULL" + jkr));
   set_motion(sim, 1, {0.0, 0.0, -8.0}, {0.0, 0.0, 0.0});
   sim.run("fix nve all nve/sphere\nrun 20");
-  const std::vector<double> in = {sim.value("f_wall[7]"), sim.value("f_wall[8]"), sim.value("f_wall[9]")};
+  const std::vector<double> in = {sim.value("f_wall[7]"), sim.value("f_wall[8]"),
+                                  sim.value("f_wall[9]")};
   EXPECT_EQ(in, (std::vector<double>{1.0, 1.0, 0.0}));
   sim.run("run 4000");
-  const std::vector<double> out = {sim.value("f_wall[7]"), sim.value("f_wall[8]"), sim.value("f_wall[9]")};
+  const std::vector<double> out = {sim.value("f_wall[7]"), sim.value("f_wall[8]"),
+                                   sim.value("f_wall[9]")};
   EXPECT_EQ(out, (std::vector<double>{0.0, 1.0, 1.0}));
 }
 
@@ -216,7 +225,8 @@ TEST(Wall, energy_of_an_elastic_bounce_is_kept)
 {
   Simulation sim;
   build(sim, {{4.0, 4.0, 0.505}},
-        at_wall("fix wall all wall/levelset plane z 0 NULL jkr 1.0e6 0.25 0\nfix_modify wall energy yes"));
+        at_wall("fix wall all wall/levelset plane z 0 NULL jkr 1.0e6 0.25 0\nfix_modify wall "
+                "energy yes"));
   sim.run("compute ke all ke\nthermo_modify norm no");
   set_motion(sim, 1, {0.0, 0.0, -3.0}, {0.0, 0.0, 0.0});
   sim.run("fix nve all nve/sphere\nrun 0");
@@ -233,7 +243,8 @@ TEST(Wall, energy_of_an_elastic_bounce_is_kept)
 TEST(Wall, centre_behind_the_wall_is_an_error)
 {
   Simulation sim;
-  build(sim, {{4.0, 4.0, 1.0}}, at_wall("fix wall all wall/levelset plane z 0 NULL" + jkr, "p p m"));
+  build(sim, {{4.0, 4.0, 1.0}},
+        at_wall("fix wall all wall/levelset plane z 0 NULL" + jkr, "p p m"));
   set_motion(sim, 1, {0.0, 0.0, -2000.0}, {0.0, 0.0, 0.0});
   const std::string text = sim.error_of("fix nve all nve/sphere\nrun 1000");
   EXPECT_NE(text.find("the centre of atom 1"), std::string::npos) << text;
@@ -247,12 +258,16 @@ TEST(Wall, DISABLED_stands_beside_a_fix_that_deletes_atoms)
   Scene scene = at_wall("", "p p f");
   scene.before = "atom_modify sort 0 0";
   build(sim, {{6.0, 6.0, 6.0}, {2.0, 2.0, 0.49}, {5.0, 5.0, 0.49}}, scene);
-  const std::string refusal = sim.error_of(
-      "group out id 1\nregion up block 0 8 0 8 1 8\nfix ev out evaporate 3 1 up 4321\n"
-      "fix wall all wall/levelset plane z 0 NULL" + jkr + "\nrun 0\n"
-      "displace_atoms all move 0 0 0.012 units box\nrun 10");
-  if (refusal.empty()) EXPECT_EQ(sim.value("f_wall[7]"), 2.0);
-  else EXPECT_NE(refusal.find("evaporate"), std::string::npos) << refusal;
+  const std::string refusal =
+      sim.error_of("group out id 1\nregion up block 0 8 0 8 1 8\nfix ev out evaporate 3 1 up 4321\n"
+                   "fix wall all wall/levelset plane z 0 NULL" +
+                   jkr +
+                   "\nrun 0\n"
+                   "displace_atoms all move 0 0 0.012 units box\nrun 10");
+  if (refusal.empty())
+    EXPECT_EQ(sim.value("f_wall[7]"), 2.0);
+  else
+    EXPECT_NE(refusal.find("evaporate"), std::string::npos) << refusal;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -268,7 +283,8 @@ void load_wall_springs(Simulation &sim)
 
 TEST(RanksWall, loads_balance_those_on_the_particles)
 {
-  for (const std::string &wall : {rough, "fix wall all wall/levelset cylinder x 4 4 3.99 inside" + jkr + all_friction}) {
+  for (const std::string &wall :
+       {rough, "fix wall all wall/levelset cylinder x 4 4 3.99 inside" + jkr + all_friction}) {
     Simulation sim;
     const bool plane = wall == rough;
     Scene scene = at_wall(wall, plane ? "p p f" : "p f f");
@@ -295,7 +311,8 @@ TEST(RanksWall, loads_balance_those_on_the_particles)
 // a limit of friction the sliding spring grows all the way.
 TEST(RanksWall, springs_travel_along_the_wall)
 {
-  auto loads = [](const std::string &friction, const std::string &neighbors, const std::string &before) {
+  auto loads = [](const std::string &friction, const std::string &neighbors,
+                  const std::string &before) {
     Simulation sim;
     Scene scene = at_wall("fix wall all wall/levelset plane z 0 NULL" + jkr + friction);
     scene.before = before;
@@ -318,7 +335,8 @@ TEST(RanksWall, springs_travel_along_the_wall)
     const double length = 64.0 * 2200 * dt;
     // sphere 2 was loaded by its spin: omega x r, r = (0, 0, -0.49)
     const double slip = -0.49 * 0.4 * 64 * dt;
-    EXPECT_NEAR(twin.f[3] / (-8.0 * material.G_eff() * material.wall().a(0.01) * (length + slip)), 1.0, 1e-7);
+    EXPECT_NEAR(twin.f[3] / (-8.0 * material.G_eff() * material.wall().a(0.01) * (length + slip)),
+                1.0, 1e-7);
   }
 }
 
