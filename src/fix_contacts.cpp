@@ -154,9 +154,11 @@ int FixContacts::pack_exchange(int i, double *buf)
 
 int FixContacts::unpack_exchange(int i, double *buf)
 {
-  const int m = velocities.unpack(i, buf);
   store.clear(i);
-  return m + store.unpack(i, buf + m);
+  const int m = velocities.unpack(i, buf);
+  const int n = store.unpack(i, buf + m);
+  maxexchange = MAX(maxexchange, m + n);    // the atom may go on to another rank as it is
+  return m + n;
 }
 
 int FixContacts::pack_restart(int i, double *buf)
@@ -178,9 +180,13 @@ int FixContacts::size_restart(int i)
   return 1 + UsedVelocity::size + store.size(i);
 }
 
+// Called on all ranks, since rank 0 writes it for all.
 int FixContacts::maxsize_restart()
 {
-  return 1 + UsedVelocity::size + store.max_size(atom->nlocal);
+  const int mine = store.max_size(atom->nlocal);
+  int largest;
+  MPI_Allreduce(&mine, &largest, 1, MPI_INT, MPI_MAX, world);
+  return 1 + UsedVelocity::size + largest;
 }
 
 double FixContacts::memory_usage()

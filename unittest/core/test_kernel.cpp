@@ -78,7 +78,8 @@ struct Crowd {
   {
     std::fill(f.begin(), f.end(), 0.0);
     std::fill(torque.begin(), torque.end(), 0.0);
-    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, {dt, 0.0, 0.0}, parts);
+    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, {dt, 0.0, 0.0},
+           parts);
   }
   void evaluate(double dt, ContactParts *parts = nullptr)
   {

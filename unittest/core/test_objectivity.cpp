@@ -91,7 +91,8 @@ struct RigidChain {
     }
     std::fill(f.begin(), f.end(), 0.0);
     std::fill(torque.begin(), torque.end(), 0.0);
-    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, {dt, 0.0, 0.0}, nullptr);
+    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, {dt, 0.0, 0.0},
+           nullptr);
   }
 };
 

@@ -112,6 +112,7 @@ inline std::vector<double> gather(Simulation &sim, const char *name, int columns
   return all;
 }
 
+// One Simulation at a time: LAMMPS 4 Feb 2025 loads a plugin into the first of several only.
 struct State {
   std::vector<double> x, v, omega, f, torque;
 };

@@ -305,11 +305,11 @@ void build_pile(Simulation &sim, const std::string &newton = "on")
   set_motion(sim, 3, {2.0, 0.0, -1.0}, {0.0, -3.0, -2.0});
 }
 
-State unbroken(const std::string &newton, double *begun = nullptr)
+State after(const std::string &commands, const std::string &newton, double *begun = nullptr)
 {
   Simulation sim;
   build_pile(sim, newton);
-  sim.run(dynamics + "run 400");
+  sim.run(dynamics + commands);
   if (begun) *begun = sim.value("f_wall[8]");
   return state_of(sim);
 }
@@ -317,16 +317,10 @@ State unbroken(const std::string &newton, double *begun = nullptr)
 TEST(RanksContactHistory, two_runs_are_one)
 {
   for (const auto &newton : both) {
-    const State reference = unbroken(newton);
+    const State reference = after("run 400", newton);
     ASSERT_GT(largest(reference.torque), 0.5);
-    Simulation sim;
-    build_pile(sim, newton);
-    sim.run(dynamics + "run 150\nrun 250");
-    expect_same(state_of(sim), reference, 1e-11);
-    Simulation every;
-    build_pile(every, newton);
-    every.run(dynamics + "run 400 every 100 NULL");
-    expect_same(state_of(every), reference, 1e-11);
+    expect_same(after("run 150\nrun 250", newton), reference, 1e-11);
+    expect_same(after("run 400 every 100 NULL", newton), reference, 1e-11);
   }
 }
 
@@ -336,19 +330,17 @@ TEST(RanksContactHistory, restart_goes_on)
   const std::string file = scratch_file("restart");
   for (const auto &newton : both) {
     double begun = 0.0;
-    const State reference = unbroken(newton, &begun);
+    const State reference = after("run 400", newton, &begun);
     for (const std::string &way :
          {"run 150\nwrite_restart " + file, "restart 150 " + file + "\nrun 400"}) {
-      Simulation first;
-      build_pile(first, newton);
-      first.run(dynamics + way);
+      after(way, newton);
       const bool within = way[1] == 'e';
       const std::string from = within ? file + ".150" : file;
-      Simulation second;
-      second.run("read_restart " + from + "\n" + dynamics + "run 250");
+      Simulation sim;
+      sim.run("read_restart " + from + "\n" + dynamics + "run 250");
       SCOPED_TRACE(newton + " " + way);
-      expect_same(state_of(second), reference, 1e-11);
-      EXPECT_EQ(second.value("f_wall[8]"), begun) << "wall contacts begun since the first run";
+      expect_same(state_of(sim), reference, 1e-11);
+      EXPECT_EQ(sim.value("f_wall[8]"), begun) << "wall contacts begun since the first run";
       for (const char *number : {"", ".150", ".300"}) std::remove((file + number).c_str());
     }
   }

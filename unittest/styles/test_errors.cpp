@@ -233,6 +233,57 @@ TEST(PairWarnings, timestep_names_the_mode_and_one_that_does)
   }
 }
 
+TEST(WallErrors, contact_law)
+{
+  expect_errors(particles, law_errors("fix w all wall/levelset plane y 0 10", "Fix wall/levelset"));
+}
+
+TEST(WallErrors, shape)
+{
+  const std::string law = " jkr 1e6 0.3 0", missing = "command: missing argument";
+  std::vector<Row> table = {
+      {"", {"fix wall/levelset " + missing}},
+      {"plane", {"fix wall/levelset plane " + missing}},
+      {"plane y", {"fix wall/levelset plane " + missing}},
+      {"plane y 0", {"fix wall/levelset plane " + missing}},
+      {"plane w 0 10" + law, {"plane dimension must be x, y or z, got w"}},
+      {"plane x 0 10" + law, {"plane needs a box that is not periodic in x"}},
+      {"plane y NULL NULL" + law, {"LO or HI, both are NULL"}},
+      {"plane y 10 0" + law, {"LO must be < HI, got 10 and 0"}},
+      {"plane y 5 5" + law, {"LO must be < HI, got 5 and 5"}},
+      {"plane y lo 10" + law, {"floating point", "'lo'"}},
+      {"plane y 0 null" + law, {"floating point", "'null'"}},
+      {"cylinder", {"fix wall/levelset cylinder " + missing}},
+      {"cylinder z 5", {"fix wall/levelset cylinder " + missing}},
+      {"cylinder z 5 5", {"fix wall/levelset cylinder " + missing}},
+      {"cylinder z 5 5 3", {"fix wall/levelset cylinder " + missing}},
+      {"cylinder w 5 5 3 inside" + law, {"cylinder dimension must be x, y or z, got w"}},
+      {"cylinder z 5 five 3 inside" + law, {"floating point", "'five'"}},
+      {"cylinder z 5 5 0 inside" + law, {"cylinder radius must be > 0, got 0"}},
+      {"cylinder z 5 5 -1 inside" + law, {"cylinder radius must be > 0, got -1"}},
+      {"cylinder z 5 5 3 within" + law, {"must be inside or outside, got within"}},
+      {"file wall.vtkhdf" + law, {"file is not available in this version"}},
+      {"sphere 5 5 5 3" + law, {"shape must be plane or cylinder, got sphere"}},
+      {"plane y 0 10" + law + " zone inlet", {"keyword zone is not available in this version"}},
+  };
+  for (auto &row : table) row.input = "fix w all wall/levelset " + row.input;
+  expect_errors(particles, table);
+}
+
+TEST(WallErrors, scene)
+{
+  const std::string law = " jkr 1e6 0.3 0\n", wall = "fix w all wall/levelset ";
+  const std::string box = "units lj\nboundary f f f\nregion b block 0 1 0 1 0 1\n";
+  expect_errors(box + "atom_style atomic\ncreate_box 1 b\n",
+                {{wall + "plane y 0 NULL" + law, {"atom style sphere", "atomic"}}});
+  const std::string plane = "units lj\ndimension 2\natom_style sphere\nboundary f f p\n"
+                            "region b block 0 1 0 1 -0.5 0.5\ncreate_box 1 b\n";
+  expect_errors(plane,
+                {{wall + "cylinder x 0 0 1 inside" + law,
+                  {"cylinder axis must be z in 2 dimensions, got x"}}});
+  expect_errors("", {{wall + "plane y 0 NULL" + law, {"before simulation box"}}});
+}
+
 TEST(WallErrors, while_running)
 {
   const std::string no_pair = "pair_style zero 2\npair_coeff * *\n",

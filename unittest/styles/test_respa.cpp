@@ -177,9 +177,11 @@ TEST(RanksRespa, restart_goes_on)
   const State reference = after(respa(8), 100);
   for (const std::string &way :
        {"run 40\nwrite_restart " + file, "restart 40 " + file + "\nrun 100"}) {
-    Simulation first;
-    build_pile(first);
-    first.run(dynamics + respa(8) + way);
+    {
+      Simulation first;
+      build_pile(first);
+      first.run(dynamics + respa(8) + way);
+    }
     const std::string from = way[1] == 'e' ? file + ".40" : file;
     Simulation second;
     second.run("read_restart " + from + "\n" + dynamics + respa(8) + "run 60");

@@ -25,6 +25,13 @@ std::string number(double value)
   return text;
 }
 
+// as in 20260704
+int release()
+{
+  Simulation sim;
+  return lammps_version(sim.lammps());
+}
+
 // ---------------------------------------------------------------------------------------------
 // the neck
 
@@ -216,12 +223,17 @@ TEST(Stock_StockLammps, wall_acts_at_the_outermost_level_only)
 double after_restart(const std::string &style)
 {
   const std::string file = scratch_file("restart");
-  Simulation sim, again;
-  build(sim, {{3.0, 3.0, 3.0}, {3.95, 3.0, 3.0}}, scene_with(style));
-  sim.run("run 1\nwrite_restart " + file);
-  const std::string text = again.error_of("read_restart " + file + "\nrun 1");
+  double before;
+  {
+    Simulation sim;
+    build(sim, {{3.0, 3.0, 3.0}, {3.95, 3.0, 3.0}}, scene_with(style));
+    sim.run("run 1\nwrite_restart " + file);
+    before = gather(sim, "f")[0];
+  }
+  Simulation sim;
+  const std::string text = sim.error_of("read_restart " + file + "\nrun 1");
   std::remove(file.c_str());
-  return text.empty() ? gather(again, "f")[0] / gather(sim, "f")[0] : -1.0;
+  return text.empty() ? gather(sim, "f")[0] / before : -1.0;
 }
 
 TEST(StockLammps, pair_acts_after_read_restart)
@@ -231,7 +243,11 @@ TEST(StockLammps, pair_acts_after_read_restart)
 
 TEST(Stock_StockLammps, pair_does_nothing_after_read_restart)
 {
-  EXPECT_LE(after_restart(stock_jkr), 0.0);    // an error, or no force
+  const double share = after_restart(stock_jkr);
+  if (release() < 20260704)
+    EXPECT_NEAR(share, 1.0, 1e-12);    // 4 Feb 2025 does it right
+  else
+    EXPECT_LE(share, 0.0);    // an error, or no force
 }
 
 // sum over both spheres of what a compute reports when they are drawn apart by 0.3 delta_C
@@ -281,9 +297,11 @@ TEST(Stock_StockLammps, wall_reports_no_total_force)
 
 TEST(StockLammps, restitution_goes_with_adhesion_and_is_exact)
 {
-  Simulation sim;
-  build(sim, {{3.0, 3.0, 3.0}}, scene_with(adhesive));
-  EXPECT_EQ(sim.error_of("pair_coeff * *" + jkr + "damping tsuji 0.5\nrun 0"), "");
+  {
+    Simulation sim;
+    build(sim, {{3.0, 3.0, 3.0}}, scene_with(adhesive));
+    EXPECT_EQ(sim.error_of("pair_coeff * *" + jkr + "damping tsuji 0.5\nrun 0"), "");
+  }
   const std::string hertz =
       "pair_style granular/adhesive\npair_coeff * * jkr 1e6 0.25 0 damping tsuji ";
   for (const double e : {0.9, 0.5, 0.2})

@@ -71,43 +71,49 @@ TEST(Wall, plane_scene)
   EXPECT_EQ(gather(sim, "x")[0], 4.0);
 }
 
-TEST(Wall, corner_and_slit_hold_two_contacts)
+TEST(Wall, corner_holds_two_contacts)
 {
-  Simulation corner;
-  build(corner, {{0.49, 4.0, 0.49}},
+  Simulation sim;
+  build(sim, {{0.49, 4.0, 0.49}},
         at_wall("fix a all wall/levelset plane x 0 NULL" + quiet +
                     "\nfix b all wall/levelset plane z 0 NULL" + quiet,
                 "f p f"));
-  corner.run("fix nve all nve/sphere\nfix g all gravity 400 vector -3 0 -4\nrun 5000");
-  EXPECT_NEAR(0.5 - gather(corner, "x")[0], overlap_under(240.0 * mass), 1e-7);
-  EXPECT_NEAR(0.5 - gather(corner, "x")[2], overlap_under(320.0 * mass), 1e-7);
-  EXPECT_NEAR(corner.value("f_a[1]") / (-240.0 * mass), 1.0, 1e-6);
-  EXPECT_NEAR(corner.value("f_b[3]") / (-320.0 * mass), 1.0, 1e-6);
+  sim.run("fix nve all nve/sphere\nfix g all gravity 400 vector -3 0 -4\nrun 5000");
+  EXPECT_NEAR(0.5 - gather(sim, "x")[0], overlap_under(240.0 * mass), 1e-7);
+  EXPECT_NEAR(0.5 - gather(sim, "x")[2], overlap_under(320.0 * mass), 1e-7);
+  EXPECT_NEAR(sim.value("f_a[1]") / (-240.0 * mass), 1.0, 1e-6);
+  EXPECT_NEAR(sim.value("f_b[3]") / (-320.0 * mass), 1.0, 1e-6);
+}
 
-  Simulation slit;    // symmetric: forces of both sides cancel
-  build(slit, {{4.0, 4.0, 4.0}}, at_wall("fix a all wall/levelset plane z 3.51 4.49" + quiet));
-  slit.run("run 0");
-  EXPECT_EQ(slit.value("f_a[7]"), 2.0);
-  EXPECT_LT(largest(gather(slit, "f")), 1e-9);
+TEST(Wall, slit_holds_two_contacts)
+{
+  Simulation sim;    // symmetric: forces of both sides cancel
+  build(sim, {{4.0, 4.0, 4.0}}, at_wall("fix a all wall/levelset plane z 3.51 4.49" + quiet));
+  sim.run("run 0");
+  EXPECT_EQ(sim.value("f_a[7]"), 2.0);
+  EXPECT_LT(largest(gather(sim, "f")), 1e-9);
   // twice the virial of one contact, each force times its arm
-  slit.run("fix_modify a virial yes\ncompute p all pressure NULL fix\nrun 0");
-  EXPECT_NEAR(slit.value("c_p[3]*vol") / (2.0 * 0.49 * material.wall().force(0.01)), 1.0, 1e-6);
+  sim.run("fix_modify a virial yes\ncompute p all pressure NULL fix\nrun 0");
+  EXPECT_NEAR(sim.value("c_p[3]*vol") / (2.0 * 0.49 * material.wall().force(0.01)), 1.0, 1e-6);
 }
 
 TEST(Wall, is_a_sphere_of_huge_radius)
 {
-  Simulation wall, pair;
-  build(wall, {{4.0, 4.0, 0.49}}, at_wall("fix wall all wall/levelset plane z 0 NULL" + jkr));
+  auto force = [](const std::vector<Sphere> &spheres, const Scene &scene) {
+    Simulation sim;
+    build(sim, spheres, scene);
+    sim.run("run 0");
+    return gather(sim, "f")[2];
+  };
   Scene scene;
   scene.box = "-600 600 -600 600 -600 1800";
   scene.style = none;
-  build(pair, {{0.0, 0.0, 0.49}, {0.0, 0.0, -500.0, 1000.0}}, scene);
-  wall.run("run 0");
-  pair.run("run 0");
-  const double force = gather(wall, "f")[2];
-  EXPECT_NEAR(force / material.wall().force(0.01), 1.0, 1e-9);
-  EXPECT_NEAR(gather(pair, "f")[2] / force, 1.0, 2e-3);
-  EXPECT_NEAR(gather(pair, "f")[2] / material.pair(1.0, 1000.0).force(0.01), 1.0, 1e-8);
+  const double pair = force({{0.0, 0.0, 0.49}, {0.0, 0.0, -500.0, 1000.0}}, scene);
+  const double wall =
+      force({{4.0, 4.0, 0.49}}, at_wall("fix wall all wall/levelset plane z 0 NULL" + jkr));
+  EXPECT_NEAR(wall / material.wall().force(0.01), 1.0, 1e-9);
+  EXPECT_NEAR(pair / wall, 1.0, 2e-3);
+  EXPECT_NEAR(pair / material.pair(1.0, 1000.0).force(0.01), 1.0, 1e-8);
 }
 
 // ---------------------------------------------------------------------------------------------
