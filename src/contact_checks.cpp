@@ -2,6 +2,9 @@
 
 #include "comm.h"
 #include "error.h"
+#include "fix.h"
+#include "modify.h"
+#include "neighbor.h"
 
 #include <cmath>
 
@@ -14,11 +17,14 @@ void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel 
   if (!model.adhesive()) return;
   const double ratio = model.normal(R).equilibrium_overlap() / smaller_radius;
   if (ratio <= much) return;
-  // overlap / r ~ (gamma/E)^(2/3)
-  const std::string message = fmt::format("{}: at rest they overlap by {:.3g} of the smaller "
-                                          "radius; a Young's modulus E {:.3g} times as "
-                                          "large makes it {}",
-                                          who, ratio, std::pow(ratio / much, 1.5), much);
+  // overlap / r ~ (gamma/E)^(2/3), and gamma ~ f^(2/5) where the stiffness is scaled by f
+  const double f = model.stiffness_scale;
+  const std::string cure = f < 1.0
+      ? fmt::format("scale_stiffness {:.3g} makes it {}", f * std::pow(ratio / much, 2.5), much)
+      : fmt::format("a Young's modulus E {:.3g} times as large makes it {}",
+                    std::pow(ratio / much, 1.5), much);
+  const std::string message = fmt::format(
+      "{}: particles at rest overlap by {:.3g} of the smaller radius; {}", who, ratio, cure);
   if (ratio > too_much)
     lmp->error->all(FLERR, Error::NOLASTLINE, "{}; above {} the contact law has no meaning",
                     message, too_much);
@@ -35,6 +41,22 @@ void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode
       "above {} dense packings are unstable; {:.3g} gives {}",
       who, dt, mode.name, kappa, apf::largest_stable_kappa, apf::accurate_kappa / mode.frequency,
       apf::accurate_kappa);
+}
+
+void check_scene(LAMMPS *lmp, const std::string &who, double diameter)
+{
+  if (lmp->comm->me != 0) return;
+  const double skin = lmp->neighbor->skin;
+  if (diameter > 0.0 && skin > 5.0 * diameter)
+    lmp->error->warning(FLERR,
+                        "{}: the neighbor skin of {:.3g} is {:.3g} diameters of the largest "
+                        "particle; neighbor {:.2g} bin would do",
+                        who, skin, skin / diameter, 0.3 * diameter);
+  for (const auto &fix : lmp->modify->get_fix_by_style("^nve$"))
+    lmp->error->warning(FLERR,
+                        "{}: fix {} has style nve, which does not turn particles; friction and "
+                        "fluid torque need fix nve/sphere",
+                        who, fix->id);
 }
 
 }    // namespace LAMMPS_NS

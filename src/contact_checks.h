@@ -18,6 +18,11 @@ void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel 
 // A warning where the step is too large for the stiffest mode, with the step that would do.
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
 
+// Warnings about what a user of granular particles forgets: a skin many particles wide (the default
+// of units si is 1 mm), and integrators that do not turn spheres.
+//   diameter   of the largest particle
+void check_scene(LAMMPS *lmp, const std::string &who, double diameter);
+
 }    // namespace LAMMPS_NS
 
 #endif

@@ -9,6 +9,7 @@
 #include "lmptype.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -19,18 +20,41 @@ class ContactStore {
 
   void grow(int n)
   {
-    if (n > static_cast<int>(records.size())) records.resize(n);
+    if (n <= static_cast<int>(records.size())) return;
+    records.resize(n);
+    owners.resize(n, 0);
   }
-  void clear(int i) { records[i].clear(); }
+  void clear(int i)
+  {
+    records[i].clear();
+    owners[i] = 0;
+  }
   void clear_range(int first, int last)
   {
     grow(last);
-    for (int i = first; i < last; i++) records[i].clear();
+    for (int i = first; i < last; i++) clear(i);
   }
 
   void add(int i, tagint partner, const apf::ContactHistory &history)
   {
     records[i].push_back({partner, history});
+  }
+
+  // the ID under which atom i was stored, 0 if it was not: commands between runs may number anew
+  tagint owner(int i) const { return owners[i]; }
+  void set_owner(int i, tagint id) { owners[i] = id; }
+
+  // Gives partners their new IDs; contacts with atoms that are gone are dropped.
+  void renumber(int i, tagint id, const std::unordered_map<tagint, tagint> &new_id)
+  {
+    owners[i] = id;
+    auto &list = records[i];
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [&](const Record &r) {
+                                return new_id.count(r.partner) == 0;
+                              }),
+               list.end());
+    for (auto &record : list) record.partner = new_id.at(record.partner);
   }
 
   // nullptr if atom i had no contact with partner
@@ -41,15 +65,19 @@ class ContactStore {
     return nullptr;
   }
 
-  void copy(int from, int to) { records[to] = records[from]; }
+  void copy(int from, int to)
+  {
+    records[to] = records[from];
+    owners[to] = owners[from];
+  }
 
   int count(int i) const { return static_cast<int>(records[i].size()); }
 
   // number of doubles that pack writes
-  int size(int i) const { return 1 + record_size * count(i); }
+  int size(int i) const { return 2 + record_size * count(i); }
   int max_size(int n) const
   {
-    int largest = 1;
+    int largest = 2;
     for (int i = 0; i < n; i++) largest = std::max(largest, size(i));
     return largest;
   }
@@ -58,7 +86,8 @@ class ContactStore {
   {
     const int n = count(i);
     buf[0] = n;
-    for (int k = 0; k < n; k++) pack_record(i, k, buf + 1 + k * record_size);
+    buf[1] = ubuf(owners[i]).d;
+    for (int k = 0; k < n; k++) pack_record(i, k, buf + 2 + k * record_size);
     return size(i);
   }
 
@@ -66,8 +95,9 @@ class ContactStore {
   int unpack(int i, const double *buf)
   {
     const int n = static_cast<int>(buf[0]);
-    for (int k = 0; k < n; k++) unpack_record(i, buf + 1 + k * record_size);
-    return 1 + n * record_size;
+    owners[i] = static_cast<tagint>(ubuf(buf[1]).i);
+    for (int k = 0; k < n; k++) unpack_record(i, buf + 2 + k * record_size);
+    return 2 + n * record_size;
   }
 
   void pack_record(int i, int k, double *buf) const
@@ -89,7 +119,7 @@ class ContactStore {
   // [bytes]
   double memory_usage() const
   {
-    double bytes = records.capacity() * sizeof(records[0]);
+    double bytes = records.capacity() * (sizeof(records[0]) + sizeof(tagint));
     for (const auto &list : records) bytes += list.capacity() * sizeof(Record);
     return bytes;
   }
@@ -100,6 +130,7 @@ class ContactStore {
     apf::ContactHistory history;
   };
   std::vector<std::vector<Record>> records;    // one list per atom
+  std::vector<tagint> owners;
 };
 
 }    // namespace LAMMPS_NS

@@ -61,6 +61,11 @@ int FixContactHistory::level() const
   return dynamic_cast<Respa *>(update->integrate)->level_pair;
 }
 
+bool FixContactHistory::stores_alone() const
+{
+  return !force->newton_pair;
+}
+
 void FixContactHistory::share_velocities()
 {
   comm->forward_comm(this);
@@ -137,6 +142,7 @@ void FixContactHistory::store_contacts()
   const tagint *tag = atom->tag;
   const int nlocal = atom->nlocal;
   store.clear_range(0, nlocal + atom->nghost);
+  for (int i = 0; i < nlocal; i++) store.set_owner(i, tag[i]);
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.i[k], j = contacts.j[k];
     const auto history = contacts.history_of(k);
@@ -144,6 +150,38 @@ void FixContactHistory::store_contacts()
     if (j < nlocal || force->newton_pair) store.add(j, tag[i], history.swapped(pair->planar()));
   }
   if (force->newton_pair) send_to_owners();
+}
+
+/* ----------------------------------------------------------------------
+   delete_atoms and reset_atoms may have numbered atoms anew since the last run
+------------------------------------------------------------------------- */
+
+void FixContactHistory::setup_pre_exchange()
+{
+  const tagint *tag = atom->tag;
+  std::vector<tagint> mine;    // old ID, new ID
+  int changed = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const tagint old = store.owner(i);
+    if (old == 0) continue;
+    mine.push_back(old);
+    mine.push_back(tag[i]);
+    changed |= old != tag[i];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
+  if (!changed) return;
+
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> counts(comm->nprocs), starts(comm->nprocs, 0);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int p = 1; p < comm->nprocs; p++) starts[p] = starts[p - 1] + counts[p - 1];
+  std::vector<tagint> all(starts.back() + counts.back());
+  MPI_Allgatherv(mine.data(), n, MPI_LMP_TAGINT, all.data(), counts.data(), starts.data(),
+                 MPI_LMP_TAGINT, world);
+  std::unordered_map<tagint, tagint> new_id;
+  for (size_t k = 0; k < all.size(); k += 2) new_id[all[k]] = all[k + 1];
+  for (int i = 0; i < atom->nlocal; i++)
+    if (store.owner(i) != 0) store.renumber(i, tag[i], new_id);
 }
 
 /* ----------------------------------------------------------------------

@@ -19,6 +19,7 @@ class FixContactHistory : public FixContacts {
   FixContactHistory(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
+  void setup_pre_exchange() override;
   void setup_pre_neighbor() override { pre_neighbor(); }
   void pre_neighbor() override;
   void min_pre_neighbor() override { pre_neighbor(); }
@@ -49,6 +50,7 @@ class FixContactHistory : public FixContacts {
 
  protected:
   void store_contacts() override;
+  bool stores_alone() const override;
 
  private:
   void share_velocities() override;

@@ -21,8 +21,8 @@ FixContacts::FixContacts(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg
   FixContacts::grow_arrays(atom->nmax);
 }
 
-// Not in the constructor: when that of a derived class throws, LAMMPS does not know the fix yet, and
-// delete_callback() would throw in turn, from a destructor.
+// Not in the constructor: when that of a derived class throws, LAMMPS does not know the fix yet,
+// and delete_callback() would throw in turn, from a destructor.
 void FixContacts::register_with_atoms()
 {
   atom->add_callback(Atom::GROW);
@@ -59,13 +59,14 @@ int FixContacts::stored_contacts(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   At the first forces of a run velocities stand at the time of the positions, unless the run goes on
-   from where another ended: then the last forces are computed again, as they were.
+   At the first forces of a run velocities stand at the time of the positions, unless the run goes
+   on from where another ended: then the last forces are computed again, as they were.
 ------------------------------------------------------------------------- */
 
 const apf::ContactTimes &FixContacts::take_velocities()
 {
   const double step = step_of_level();
+  contacts_change();
   taken = {step, 0.5 * step, step};
   if (!update->setupflag) {
     velocities.use(atom);
@@ -101,7 +102,8 @@ double FixContacts::step_of_level() const
 
 void FixContacts::pre_exchange()
 {
-  store_contacts();
+  if (!stored) store_contacts();
+  stored = true;
   maxexchange = UsedVelocity::size + store.max_size(atom->nlocal);
 }
 
@@ -134,8 +136,11 @@ void FixContacts::grow_arrays(int nmax)
   velocities.grow(nmax);
 }
 
+// A fix that comes first may delete atoms before pre_exchange() is called here.
 void FixContacts::copy_arrays(int i, int j, int /*delflag*/)
 {
+  if (!stored && stores_alone()) store_contacts();
+  stored = stored || stores_alone();
   store.copy(i, j);
   velocities.copy(i, j);
 }

@@ -43,10 +43,13 @@ class FixContacts : public Fix {
   ContactStore store;
   UsedVelocity velocities;
 
+  void contacts_change() { stored = false; }    // what the store holds is no longer the latest
+
   void register_with_atoms();    // last act of a derived class's constructor
 
   virtual void store_contacts() = 0;
-  virtual int level() const = 0;    // of r-RESPA, on which the contacts act
+  virtual bool stores_alone() const { return true; }    // without communication
+  virtual int level() const = 0;                        // of r-RESPA, on which the contacts act
 
   // numbers of the fix itself in restart files; called on all ranks
   virtual std::vector<double> global_state() const { return {}; }
@@ -65,6 +68,7 @@ class FixContacts : public Fix {
  private:
   std::vector<const FixContacts *> keepers;    // all fixes that own contacts, this one included
   bool registered = false;
+  bool stored = true;           // no forces since contacts were stored
   apf::ContactTimes taken{};    // of the last forces
 
   virtual void share_velocities() {}    // with ghosts, where these have contacts

@@ -1,10 +1,12 @@
 #include "fix_flow_force.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_flow_field.h"
 #include "force.h"
+#include "math_const.h"
 #include "memory.h"
 #include "modify.h"
 #include "respa.h"
@@ -181,13 +183,30 @@ void FixFlowForce::check_particles()
   const double *radius = atom->radius;
   const int *mask = atom->mask;
   int points = 0;
-  for (int i = 0; i < atom->nlocal; i++)
-    if ((mask[i] & groupbit) && !(radius[i] > 0.0)) points++;
+  double densest = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double r = radius[i];
+    if (!(r > 0.0)) points++;
+    if (r > 0.0)
+      densest = MAX(densest, atom->rmass[i] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r));
+  }
   int points_all;
   MPI_Allreduce(&points, &points_all, 1, MPI_INT, MPI_SUM, world);
   if (points_all)
     error->all(FLERR, Error::NOLASTLINE,
                "Fix flow/force requires particles of radius > 0, got {} of radius 0", points_all);
+
+  // the mass of a sphere whose diameter was set after its density is that of the old diameter
+  double densest_all;
+  MPI_Allreduce(&densest, &densest_all, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (densest_all > 1.0e5 * field->density && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix flow/force {}: particles have a density of up to {:.3g}, {:.3g} times that of "
+        "the fluid; set diameter before density, as in: set group all diameter D density "
+        "RHO",
+        id, densest_all, densest_all / field->density);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -33,7 +33,8 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   size_vector = 9;
   global_freq = 1;
   extscalar = 1;
-  extvector = 1;
+  extvector = -1;    // forces and torques are extensive, counts are not to be divided by atoms
+  extlist = new int[9]{1, 1, 1, 1, 1, 1, 0, 0, 0};
   energy_global_flag = 1;
   virial_global_flag = virial_peratom_flag = 1;
   respa_level_support = 1;
@@ -148,6 +149,7 @@ void FixWallLevelset::post_force(int vflag)
   touched.resize(atom->nmax, 0);
   if (rebuild) find_again();
   const auto times = lender ? lender->times() : take_velocities();
+  contacts_change();
   detect();
   gather();
   if (contacts.size() > 0)

@@ -20,6 +20,7 @@ namespace LAMMPS_NS {
 class FixWallLevelset : public FixContacts {
  public:
   FixWallLevelset(class LAMMPS *, int, char **);
+  ~FixWallLevelset() override { delete[] extlist; }
   int setmask() override;
   void init() override;
   void setup(int) override;

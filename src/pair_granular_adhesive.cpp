@@ -295,6 +295,7 @@ void PairGranularAdhesive::init_style()
     store->serve(this);
   }
   sizes = TypeSizes::find(lmp, "Pair granular/adhesive");
+  check_scene(lmp, "Pair granular/adhesive", 2.0 * sizes.largest_radius());
   neck_max = 0.0;    // init_one finds it
   choice = apf::KernelChoice();
   choice.planar = domain->dimension == 2;

@@ -1,6 +1,6 @@
 // The velocities that contact forces were last computed with. Leapfrog steps compute forces with
-// velocities half a step older than the positions; whoever looks at contacts later, or goes on from
-// the end of a run or from a restart file, needs these again, since by then velocities have moved on.
+// velocities half a step older than the positions. Who looks at contacts later, or goes on from the
+// end of a run or from a restart file, needs these again: velocities have moved on by then.
 
 #ifndef APF_USED_VELOCITY_H
 #define APF_USED_VELOCITY_H

@@ -1,5 +1,5 @@
-// Pairs of bodies near enough to touch before the next look at the neighbour list, and which of them
-// are in contact. Finding first touches costs one distance per pair and step.
+// Pairs of bodies near enough to touch before the next look at the neighbour list, and which of
+// them are in contact. Finding first touches costs one distance per pair and step.
 
 #ifndef APF_CANDIDATES_H
 #define APF_CANDIDATES_H

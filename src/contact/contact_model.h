@@ -71,13 +71,13 @@ struct ContactConstants {
   double kt;               // tangential stiffness: kt s^2 = 8 G a                   [force/length]
   double mu;               // sliding friction                                                  [-]
   double adhesion;         // 2 F_C in the friction limit mu |F_e + 2 F_C|                  [force]
-  double twist;            // 1 with twisting resistance, else 0                                [-]
-  double roll_k;           // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
-  double roll_limit;       // xi_crit = theta_crit R                                       [length]
-  double roll_eta;         // rolling damping: roll_eta s^(3/2)                 [force time/length]
-  double crowd_mass;       // m / crowding                                                   [mass]
-  double crowd_roll;       // I / (R crowding)                                        [mass length]
-  double turning;          // see ContactBodies                                                 [-]
+  double twist;         // in the limit of twisting: 1, less for a scaled stiffness, 0 without [-]
+  double roll_k;        // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
+  double roll_limit;    // xi_crit = theta_crit R                                       [length]
+  double roll_eta;      // rolling damping: roll_eta s^(3/2)                 [force time/length]
+  double crowd_mass;    // m / crowding                                                   [mass]
+  double crowd_roll;    // I / (R crowding)                                        [mass length]
+  double turning;       // see ContactBodies                                                 [-]
 
   static ContactConstants make(const ContactModel &model, const ContactBodies &bodies)
   {
@@ -102,7 +102,7 @@ struct ContactConstants {
     c.kt = 8.0 * model.surface.G * f * bodies.R;
     c.mu = model.mu;
     c.adhesion = 2.0 * normal.pulloff_force() * restore;
-    c.twist = model.twisting ? 1.0 : 0.0;
+    c.twist = model.twisting ? std::pow(f, 0.2) : 0.0;    // (43) has a, which grows as f^(-1/5)
     c.roll_k = 6.0 * normal.K * normal.neck3() * restore;
     c.roll_limit = model.theta_crit * bodies.R;
     c.roll_eta = 2.0 * model.zeta * std::sqrt(c.roll_k * bodies.I / bodies.R);

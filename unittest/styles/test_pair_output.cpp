@@ -228,9 +228,8 @@ TEST(RanksPairOutput, beside_commands_that_add_and_delete_particles)
                     twin, 1e-12);
 }
 
-// delete_atoms numbers the particles that stay anew unless told "compress no": springs must follow,
-// or the run be refused. Disabled until fix contact/history does one of the two.
-TEST(RanksPairOutput, DISABLED_beside_commands_that_number_particles_anew)
+// delete_atoms numbers the particles that stay anew unless told "compress no": springs must follow.
+TEST(RanksPairOutput, beside_commands_that_number_particles_anew)
 {
   const State twin = loaded("");
   Scene scene;

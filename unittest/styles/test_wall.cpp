@@ -257,8 +257,8 @@ TEST(Wall, centre_behind_the_wall_is_an_error)
 }
 
 // Fix evaporate deletes the first atom before the wall, defined after it, has stored its contacts:
-// necks must not be lost, or the order be refused. Disabled until FixContacts does one of the two.
-TEST(Wall, DISABLED_stands_beside_a_fix_that_deletes_atoms)
+// necks must not be lost.
+TEST(Wall, stands_beside_a_fix_that_deletes_atoms)
 {
   Simulation sim;
   Scene scene = at_wall("", "p p f");
