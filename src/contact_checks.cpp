@@ -5,6 +5,7 @@
 #include "fix.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "update.h"
 
 #include <cmath>
 
@@ -21,14 +22,24 @@ void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel 
   const double f = model.stiffness_scale;
   const std::string cure = f < 1.0
       ? fmt::format("scale_stiffness {:.3g} makes it {}", f * std::pow(ratio / much, 2.5), much)
-      : fmt::format("a Young's modulus E {:.3g} times as large makes it {}",
-                    std::pow(ratio / much, 1.5), much);
+      : fmt::format(
+            "a Young's modulus E {:.3g} times as large (effective modulus {:.3g}) makes it {}",
+            std::pow(ratio / much, 1.5), model.surface.E * std::pow(ratio / much, 1.5), much);
   const std::string message = fmt::format(
       "{}: particles at rest overlap by {:.3g} of the smaller radius; {}", who, ratio, cure);
   if (ratio > too_much)
     lmp->error->all(FLERR, Error::NOLASTLINE, "{}; above {} the contact law has no meaning",
                     message, too_much);
   if (lmp->comm->me == 0) lmp->error->warning(FLERR, message);
+}
+
+void check_units(LAMMPS *lmp, const std::string &who)
+{
+  const std::string units = lmp->update->unit_style;
+  for (const char *known : {"lj", "si", "cgs", "micro", "nano"})
+    if (units == known) return;
+  lmp->error->all(FLERR, Error::NOLASTLINE, "{} requires units lj, si, cgs, micro or nano, got {}",
+                  who, units);
 }
 
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt)

@@ -15,6 +15,9 @@ class LAMMPS;
 void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel &model, double R,
                    double smaller_radius);
 
+// An error in units where force is not mass times acceleration, or E no pressure.
+void check_units(LAMMPS *lmp, const std::string &who);
+
 // A warning where the step is too large for the stiffest mode, with the step that would do.
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
 

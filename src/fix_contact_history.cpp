@@ -71,13 +71,39 @@ void FixContactHistory::share_velocities()
   comm->forward_comm(this);
 }
 
-void FixContactHistory::count_contacts()
+/* ----------------------------------------------------------------------
+   contacts of each atom, which share its mass between their dashpots; counted from what is closed
+   now, so that neither ranks nor rebuilds of the neighbour list matter
+------------------------------------------------------------------------- */
+
+bool FixContactHistory::count_contacts()
 {
+  bigint changed = 0;
+  for (const auto *keeper : keepers) changed += keeper->changes_so_far();
+  int recount = changed != changes_counted;
+  changes_counted = changed;
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &recount, 1, MPI_INT, MPI_MAX, world);
+  if (!recount) return false;
+
   counts.assign(atom->nmax, 0.0);
-  for (int i = 0; i < atom->nlocal; i++) counts[i] = stored_contacts(i);
+  add_counts(counts.data());
   sends_counts = true;
+  if (force->newton_pair) comm->reverse_comm(this, 1);
+  pair_counts.assign(counts.begin(), counts.begin() + atom->nlocal);
+  for (auto *keeper : keepers)
+    if (keeper != this) keeper->count_into(counts.data());
   comm->forward_comm(this, 1);
   sends_counts = false;
+  return true;
+}
+
+void FixContactHistory::add_counts(double *to)
+{
+  const auto &contacts = pair->closed_contacts();
+  for (int k = 0; k < contacts.size(); k++) {
+    to[contacts.i[k]] += 1.0;
+    if (contacts.j[k] < atom->nlocal || force->newton_pair) to[contacts.j[k]] += 1.0;
+  }
 }
 
 // Ghosts of a sheared periodic box move relative to their owners, as CommBrick does it for v.
@@ -204,6 +230,10 @@ void FixContactHistory::send_to_owners()
 
 int FixContactHistory::pack_reverse_comm(int n, int first, double *buf)
 {
+  if (sends_counts) {
+    std::copy(&counts[first], &counts[first] + n, buf);
+    return n;
+  }
   int m = 0;
   for (int i = first; i < first + n; i++) {
     const bool some = sent[i] < store.count(i);
@@ -216,6 +246,10 @@ int FixContactHistory::pack_reverse_comm(int n, int first, double *buf)
 
 void FixContactHistory::unpack_reverse_comm(int n, int *list, double *buf)
 {
+  if (sends_counts) {
+    for (int k = 0; k < n; k++) counts[list[k]] += buf[k];
+    return;
+  }
   for (int k = 0; k < n; k++)
     if (buf[k * comm_reverse] > 0.0) store.unpack_record(list[k], buf + k * comm_reverse + 1);
 }

@@ -35,9 +35,12 @@ class FixContactHistory : public FixContacts {
   // history of atom i's contact with the atom of that ID at the last rebuild; nullptr if none
   const apf::ContactHistory *find(int i, tagint partner) const { return store.find(i, partner); }
 
-  // contacts of local and ghost atoms, with particles and walls, when the neighbour list was built
-  void count_contacts();
-  double count(int i) const { return counts[i]; }
+  // Counts contacts, with particles and walls, where some were made or have ended on any rank since
+  // the last count; returns whether so. Collective.
+  bool count_contacts();
+  double count(int i) const { return counts[i]; }              // of local and ghost atoms
+  double pair_count(int i) const { return pair_counts[i]; }    // with particles only, local atoms
+  using FixContacts::count_anew;
 
   // velocities of the last forces, local and ghost atoms: [atoms][3]
   const double *velocity() const { return velocities.v.data(); }
@@ -50,6 +53,7 @@ class FixContactHistory : public FixContacts {
 
  protected:
   void store_contacts() override;
+  void add_counts(double *) override;
   bool stores_alone() const override;
 
  private:
@@ -57,9 +61,10 @@ class FixContactHistory : public FixContacts {
 
   class PairGranularAdhesive *pair = nullptr;
   double radius_growth = 0.0;
-  std::vector<double> counts;
-  bool sends_counts = false;    // what forward communication carries: counts or velocities
-  std::vector<int> sent;        // records that each ghost has sent to its owner
+  std::vector<double> counts, pair_counts;
+  bool sends_counts = false;    // what communication carries: counts, or velocities and histories
+  bigint changes_counted = -1;
+  std::vector<int> sent;    // records that each ghost has sent to its owner
 
   void send_to_owners();
 };

@@ -48,14 +48,7 @@ void FixContacts::init()
 {
   keepers.clear();
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *keeper = dynamic_cast<const FixContacts *>(fix)) keepers.push_back(keeper);
-}
-
-int FixContacts::stored_contacts(int i) const
-{
-  int n = 0;
-  for (const auto *keeper : keepers) n += keeper->store.count(i);
-  return n;
+    if (auto *keeper = dynamic_cast<FixContacts *>(fix)) keepers.push_back(keeper);
 }
 
 /* ----------------------------------------------------------------------
@@ -67,6 +60,7 @@ const apf::ContactTimes &FixContacts::take_velocities()
 {
   const double step = step_of_level();
   contacts_change();
+  const double last_behind = taken.behind;
   taken = {step, 0.5 * step, step};
   if (!update->setupflag) {
     velocities.use(atom);
@@ -76,6 +70,7 @@ const apf::ContactTimes &FixContacts::take_velocities()
   int goes_on = velocities.goes_on(atom);
   MPI_Allreduce(MPI_IN_PLACE, &goes_on, 1, MPI_INT, MPI_MIN, world);
   if (goes_on) {
+    taken.behind = last_behind;
     share_velocities();
   } else {
     taken.behind = 0.0;
@@ -116,7 +111,8 @@ void FixContacts::post_run()
 void FixContacts::write_restart(FILE *fp)
 {
   if (update->whichflag) post_run();    // within a run; else the end of the last run has done it
-  const auto state = global_state();
+  auto state = global_state();
+  state.insert(state.begin(), taken.behind);
   if (comm->me != 0) return;
   const int bytes = static_cast<int>(state.size() * sizeof(double));
   fwrite(&bytes, sizeof(int), 1, fp);
@@ -125,7 +121,9 @@ void FixContacts::write_restart(FILE *fp)
 
 void FixContacts::restart(char *buf)
 {
-  set_global_state(reinterpret_cast<const double *>(buf));
+  const auto *state = reinterpret_cast<const double *>(buf);
+  taken.behind = state[0];
+  set_global_state(state + 1);
 }
 
 /* ---------------------------------------------------------------------- */

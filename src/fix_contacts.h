@@ -39,24 +39,26 @@ class FixContacts : public Fix {
   int maxsize_restart() override;
   double memory_usage() override;
 
+  bigint changes_so_far() const { return changes; }    // contacts made and ended
+  void count_into(double *counts) { add_counts(counts); }
+
  protected:
   ContactStore store;
   UsedVelocity velocities;
 
   void contacts_change() { stored = false; }    // what the store holds is no longer the latest
+  void count_anew() { changes++; }              // a contact was made or has ended
 
   void register_with_atoms();    // last act of a derived class's constructor
 
   virtual void store_contacts() = 0;
+  virtual void add_counts(double *counts) = 0;          // contacts of each local and ghost atom
   virtual bool stores_alone() const { return true; }    // without communication
   virtual int level() const = 0;                        // of r-RESPA, on which the contacts act
 
   // numbers of the fix itself in restart files; called on all ranks
   virtual std::vector<double> global_state() const { return {}; }
   virtual void set_global_state(const double *) {}
-
-  // contacts of local atom i, with particles and walls, when the neighbour list was last built
-  int stored_contacts(int i) const;
 
   // Takes the velocities for the forces of this step; returns the times that the kernel needs.
   // Collective at the first step of a run.
@@ -65,8 +67,10 @@ class FixContacts : public Fix {
   apf::ContactTimes last_times() const;    // to look at the same forces again
   double step_of_level() const;            // time between two force computations
 
+  std::vector<FixContacts *> keepers;    // all fixes that own contacts, this one included
+  bigint changes = 0;                    // contacts made and ended so far
+
  private:
-  std::vector<const FixContacts *> keepers;    // all fixes that own contacts, this one included
   bool registered = false;
   bool stored = true;           // no forces since contacts were stored
   apf::ContactTimes taken{};    // of the last forces

@@ -69,6 +69,7 @@ int FixWallLevelset::setmask()
 void FixWallLevelset::init()
 {
   FixContacts::init();
+  check_units(lmp, command);
   rigid = nullptr;
   for (const auto &fix : modify->get_fix_list())
     if (fix->rigid_flag) rigid = fix;
@@ -87,14 +88,22 @@ void FixWallLevelset::init()
   }
 
   // the smallest and lightest particle decides about overlap and time step
-  double inverse[2] = {0.0, 0.0}, smallest[2];
+  double inverse[3] = {0.0, 0.0, 0.0}, smallest[3];
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) {
       inverse[0] = MAX(inverse[0], 1.0 / atom->radius[i]);
       inverse[1] = MAX(inverse[1], 1.0 / atom->rmass[i]);
+      inverse[2] = MAX(inverse[2], atom->radius[i]);
     }
-  MPI_Allreduce(inverse, smallest, 2, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(inverse, smallest, 3, MPI_DOUBLE, MPI_MAX, world);
   if (smallest[0] == 0.0) return;
+  for (const auto &surface : surfaces)
+    if (surface.shape == apf::Surface::Shape::cylinder && surface.side < 0.0 &&
+        surface.radius <= 1.1 * smallest[2])
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} {}: the radius of a cylinder around the fluid must be > 1.1 times that of the "
+                 "largest particle, {}, got {}",
+                 command, id, smallest[2], surface.radius);
   const double r = 1.0 / smallest[0], m = 1.0 / smallest[1];
   check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, r, r);
   check_timestep(
@@ -151,6 +160,7 @@ void FixWallLevelset::post_force(int vflag)
   const auto times = lender ? lender->times() : take_velocities();
   contacts_change();
   detect();
+  share_masses();
   gather();
   if (contacts.size() > 0)
     kernel(contacts,
@@ -175,13 +185,23 @@ void FixWallLevelset::detect()
                    "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
                    "inside, or use a smaller timestep",
                    command, id, atom->tag[i], -distance);
-      close(i, s, apf::ContactHistory(), true);
+      close(i, s, apf::ContactHistory());
       captured += 1.0;
     }
   }
 }
 
-void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &history, bool fresh)
+void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &history)
+{
+  const int k = contacts.size();
+  contacts.add(2 * k, 2 * k + 1, i,
+               apf::ContactConstants::make(coefficient.model, bodies_of(i, surface)), history);
+  surface_of.push_back(surface);
+  touched[i] |= 1u << surface;
+  count_anew();
+}
+
+apf::ContactBodies FixWallLevelset::bodies_of(int i, int surface) const
 {
   double m = atom->rmass[i];
   const double r = atom->radius[i], I = 0.4 * m * r * r;
@@ -191,13 +211,25 @@ void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &histo
     const auto *mass = static_cast<double *>(rigid->extract("masstotal", dim));
     if (body && mass && body[i] >= 0) m = mass[body[i]];
   }
-  const int k = contacts.size();
-  auto bodies = apf::ContactBodies::wall(r, m, I, surfaces[surface].turning(r));
-  bodies.crowding = stored_contacts(i) + (fresh ? 1 : 0);
-  contacts.add(2 * k, 2 * k + 1, i, apf::ContactConstants::make(coefficient.model, bodies),
-               history);
-  surface_of.push_back(surface);
-  touched[i] |= 1u << surface;
+  return apf::ContactBodies::wall(r, m, I, surfaces[surface].turning(r));
+}
+
+// An atom's mass is shared by the dashpots of all its contacts.
+void FixWallLevelset::share_masses()
+{
+  for (int k = 0; k < contacts.size(); k++) {
+    const int i = contacts.source[k];
+    auto bodies = bodies_of(i, surface_of[k]);
+    bodies.crowding = lender ? lender->pair_count(i) : 0.0;
+    for (unsigned bits = touched[i]; bits; bits >>= 1) bodies.crowding += bits & 1;
+    contacts.set_crowding(k, bodies);
+  }
+}
+
+void FixWallLevelset::add_counts(double *counts)
+{
+  if (rebuild) find_again();
+  for (int i : contacts.source) counts[i] += 1.0;
 }
 
 void FixWallLevelset::remove_ended()
@@ -213,6 +245,7 @@ void FixWallLevelset::remove_ended()
       contacts.j[k] = 2 * k + 1;
     }
     detached += 1.0;
+    count_anew();
   }
 }
 
@@ -294,12 +327,13 @@ void FixWallLevelset::post_neighbor()
 void FixWallLevelset::find_again()
 {
   rebuild = false;
+  touched.resize(atom->nmax, 0);
   contacts.clear();
   surface_of.clear();
   std::fill(touched.begin(), touched.end(), 0u);
   for (int i = 0; i < atom->nlocal; i++)
     for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
-      if (const auto *history = store.find(i, s)) close(i, s, *history, false);
+      if (const auto *history = store.find(i, s)) close(i, s, *history);
 }
 
 /* ----------------------------------------------------------------------

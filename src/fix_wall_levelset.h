@@ -37,6 +37,7 @@ class FixWallLevelset : public FixContacts {
 
  protected:
   void store_contacts() override;
+  void add_counts(double *) override;
   int level() const override;
   std::vector<double> global_state() const override;
   void set_global_state(const double *) override;
@@ -69,7 +70,9 @@ class FixWallLevelset : public FixContacts {
 
   void find_again();
   void detect();
-  void close(int i, int surface, const apf::ContactHistory &, bool fresh);
+  void close(int i, int surface, const apf::ContactHistory &);
+  apf::ContactBodies bodies_of(int i, int surface) const;
+  void share_masses();
   void remove_ended();
   void gather();
   void scatter(int vflag);

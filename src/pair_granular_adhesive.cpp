@@ -56,7 +56,8 @@ PairGranularAdhesive::~PairGranularAdhesive()
 {
   delete[] svector;
   delete[] pvector;
-  modify->delete_fix(store ? id_store : id_store + "_PLACE");
+  const std::string id_now = store ? id_store : id_store + "_PLACE";
+  if (modify->get_fix_by_id(id_now)) modify->delete_fix(id_now);
   if (allocated) {
     memory->destroy(setflag);
     memory->destroy(cutsq);
@@ -70,15 +71,16 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   ev_init(eflag, vflag);
   if (rebuild) {
     find_rigid_masses();
-    store->count_contacts();
     build_candidates();
   }
   const auto times = store->take_velocities();
   // contacts open with first touch and end with the neck
   if (candidates.size() > 0)
     candidates.detect(&atom->x[0][0], [this](int k) {
-      close(k, apf::ContactHistory(), true);
+      close(k, apf::ContactHistory());
     });
+
+  if (store->count_contacts()) share_masses();
 
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
@@ -115,7 +117,7 @@ void PairGranularAdhesive::build_candidates()
       const int j = jlist[jj] & NEIGHMASK;
       const int k = candidates.add(i, j, radius[i] + radius[j]);
       const auto *history = store->find(i, tag[j]);
-      if (history) close(k, *history, false);
+      if (history) close(k, *history);
     }
   }
   rebuild = false;
@@ -123,19 +125,21 @@ void PairGranularAdhesive::build_candidates()
 
 /* ---------------------------------------------------------------------- */
 
-void PairGranularAdhesive::close(int k, const apf::ContactHistory &history, bool fresh)
+void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
 {
   const int i = candidates.i[k], j = candidates.j[k];
   const auto &model = coefficients[atom->type[i]][atom->type[j]].model;
-  contacts.add(i, j, k, apf::ContactConstants::make(model, bodies_of(i, j, fresh)), history);
+  contacts.add(i, j, k, apf::ContactConstants::make(model, bodies_of(i, j, 1.0, 1.0)), history);
   candidates.closed[k] = 1;
+  store->count_anew();
 }
 
 /* ----------------------------------------------------------------------
-   radii and effective inertia; frozen particles and rigid bodies count as LAMMPS counts them
+   radii and effective inertia; frozen particles and rigid bodies count as LAMMPS counts them;
+   zi, zj contacts share the two particles
 ------------------------------------------------------------------------- */
 
-apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j, bool fresh) const
+apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j, double zi, double zj) const
 {
   const double ri = atom->radius[i], rj = atom->radius[j];
   double mi = atom->rmass[i], mj = atom->rmass[j];
@@ -150,9 +154,20 @@ apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j, bool fresh) con
   if (frozen_i && !frozen_j) inv_mi = inv_Ii = 0.0;
   if (frozen_j && !frozen_i) inv_mj = inv_Ij = 0.0;
   auto bodies = apf::ContactBodies::pair(ri, rj, 1.0 / (inv_mi + inv_mj), 1.0 / (inv_Ii + inv_Ij));
-  const double zi = store->count(i) + (fresh ? 1 : 0), zj = store->count(j) + (fresh ? 1 : 0);
   bodies.crowding = (zi * inv_mi + zj * inv_mj) * bodies.m;
   return bodies;
+}
+
+/* ----------------------------------------------------------------------
+   the masses of particles are shared by the dashpots of all their contacts
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::share_masses()
+{
+  for (int k = 0; k < contacts.size(); k++) {
+    const int i = contacts.i[k], j = contacts.j[k];
+    contacts.set_crowding(k, bodies_of(i, j, store->count(i), store->count(j)));
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -162,6 +177,7 @@ void PairGranularAdhesive::remove_ended()
   for (int k = contacts.size() - 1; k >= 0; k--)
     if (contacts.ended(k)) {
       candidates.closed[contacts.source[k]] = 0;
+      store->count_anew();
       contacts.remove(k);
     }
 }
@@ -271,6 +287,7 @@ void PairGranularAdhesive::init_style()
                  "Pair granular/adhesive takes special_bonds lj factors 0 or 1, got {}",
                  force->special_lj[n]);
 
+  check_units(lmp, "Pair granular/adhesive");
   neighbor->add_request(this, NeighConst::REQ_SIZE);
 
   const auto freezes = modify->get_fix_by_style("^freeze");
@@ -289,6 +306,10 @@ void PairGranularAdhesive::init_style()
       rigid = fix;
     }
 
+  if (!modify->get_fix_by_id(store ? id_store : id_store + "_PLACE"))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair granular/adhesive lost its fix {}: do not unfix it, repeat pair_style",
+               id_store);
   if (!store) {
     store = dynamic_cast<FixContactHistory *>(
         modify->replace_fix(id_store + "_PLACE", id_store + " all contact/history", 1));
@@ -320,9 +341,14 @@ double PairGranularAdhesive::init_one(int i, int j)
   const double neck = model.normal(ri * rj / (ri + rj)).pulloff_overlap();
   neck_max = MAX(neck_max, neck);
   if (sizes.radius_max[i] > 0.0 && sizes.radius_max[j] > 0.0) {
-    const double si = sizes.radius_min[i], sj = sizes.radius_min[j];
-    check_overlap(lmp, fmt::format("Pair granular/adhesive types {} {}", i, j), model,
-                  si * sj / (si + sj), MIN(si, sj));
+    // the smaller particle sinks deepest into the largest one
+    const std::string who = fmt::format("Pair granular/adhesive types {} {}", i, j);
+    const double a = sizes.radius_min[i], b = sizes.radius_min[j];
+    const double A = sizes.radius_max[i], B = sizes.radius_max[j];
+    if (a / B < b / A)
+      check_overlap(lmp, who, model, a * B / (a + B), a);
+    else
+      check_overlap(lmp, who, model, A * b / (A + b), b);
   }
   return ri + rj + neck;
 }
@@ -357,7 +383,7 @@ void PairGranularAdhesive::find_rigid_masses()
   const auto *body = static_cast<int *>(rigid->extract("body", dim));
   const auto *mass = static_cast<double *>(rigid->extract("masstotal", dim));
   mass_rigid.assign(atom->nmax, 0.0);
-  if (!body || !mass) return;    // rigid/small: its particles count by themselves
+  if (!body || !mass) return;    // a style without: particles count by themselves
   for (int i = 0; i < atom->nlocal; i++)
     if (body[i] >= 0) mass_rigid[i] = mass[body[i]];
   comm->forward_comm(this);

@@ -69,8 +69,9 @@ class PairGranularAdhesive : public Pair {
   void allocate();
   void find_rigid_masses();
   void build_candidates();
-  void close(int candidate, const apf::ContactHistory &, bool fresh);
-  apf::ContactBodies bodies_of(int i, int j, bool fresh) const;
+  void close(int candidate, const apf::ContactHistory &);
+  apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
+  void share_masses();
   void remove_ended();
   void tally(int eflag);
   void evaluate_parts();

@@ -99,7 +99,7 @@ struct ContactTimes {
 
 // The largest dashpot constant that leapfrog steps bear beside a spring k: stable while
 // eta dt/m < 2 - k dt^2 / (2 m), with m the mass that bodies with many contacts leave to one of
-// them. It binds in dense aggregates at large steps only.
+// them. It binds where a particle has several contacts and the step is large.
 APF_INLINE double stable_dashpot(double k, double m, double step)
 {
   const double most = 0.9 * (2.0 * m / step - 0.5 * k * step);

@@ -110,6 +110,15 @@ class ContactList {
     return h;
   }
 
+  // other contacts of the two bodies have come or gone
+  void set_crowding(int k, const ContactBodies &bodies)
+  {
+    constants[offsetof(ContactConstants, crowd_mass) / sizeof(double)][k] =
+        bodies.m / bodies.crowding;
+    constants[offsetof(ContactConstants, crowd_roll) / sizeof(double)][k] =
+        bodies.I / (bodies.R * bodies.crowding);
+  }
+
   // the last update found the neck beyond its end
   bool ended(int k) const { return overlap[k] < break_overlap(k); }
 
