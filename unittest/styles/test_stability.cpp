@@ -1,5 +1,5 @@
-// Dense aggregates at the report's own time step (f3 = 0.1): many contacts on one particle raise its
-// frequencies and add up their dashpots. An aggregate with some motion in it must come to rest.
+// Dense aggregates at the report's own time step (f3 = 0.1): many contacts on one particle raise
+// its frequencies and add up their dashpots. An aggregate with motion in it must come to rest.
 
 #include "simulation.h"
 
