@@ -1,5 +1,5 @@
-// Static friction where it is known to fail: a small particle jammed between large ones
-// (arXiv:2410.14798), and rolling without slip along a curved wall.
+// Static friction: a small particle jammed between large ones, the scene of arXiv:2410.14798, and
+// rolling without slip along a curved wall.
 
 #include "simulation.h"
 
@@ -22,8 +22,7 @@ const std::string header =
     "boundary f f f\n";
 
 // A sphere of 10 um sits in a wedge of 10 degrees between two frozen ones, `ratio` times as large,
-// and is shaken across it below the friction limit. It must stay: half-step velocities split by the
-// normal of the positions let it creep out where radii differ by more than about three.
+// and is shaken across it below the friction limit: it must stay. Returns how far it creeps [r].
 double creep(double ratio)
 {
   const double r = 1e-5, R = ratio * r, D = R + r - 2e-8, angle = 5.0 * M_PI / 180.0;
