@@ -40,6 +40,9 @@ class Words {
   double number(const std::string &keyword, double low, bool low_allowed, double high)
   {
     need(1, keyword);
+    if (!utils::is_double(arg[iarg]))
+      lmp->error->all(FLERR, offset + iarg, "{} {} must be a number, got {}", command, keyword,
+                      arg[iarg]);
     const double value = utils::numeric(FLERR, arg[iarg], false, lmp);
     if (!(low_allowed ? value >= low : value > low) || !(value <= high)) {
       const std::string range = std::isinf(high)
