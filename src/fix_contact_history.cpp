@@ -84,6 +84,7 @@ bool FixContactHistory::count_contacts()
   changes_counted = changed;
   if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &recount, 1, MPI_INT, MPI_MAX, world);
   if (!recount) return false;
+  times_counted++;
 
   counts.assign(atom->nmax, 0.0);
   add_counts(counts.data());

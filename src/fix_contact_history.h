@@ -40,6 +40,7 @@ class FixContactHistory : public FixContacts {
   bool count_contacts();
   double count(int i) const { return counts[i]; }              // of local and ghost atoms
   double pair_count(int i) const { return pair_counts[i]; }    // with particles only, local atoms
+  bigint counted() const { return times_counted; }             // so often until now
   using FixContacts::count_anew;
 
   // velocities of the last forces, local and ghost atoms: [atoms][3]
@@ -64,6 +65,7 @@ class FixContactHistory : public FixContacts {
   std::vector<double> counts, pair_counts;
   bool sends_counts = false;    // what communication carries: counts, or velocities and histories
   bigint changes_counted = -1;
+  bigint times_counted = 0;
   std::vector<int> sent;    // records that each ghost has sent to its owner
 
   void send_to_owners();

@@ -217,6 +217,9 @@ apf::ContactBodies FixWallLevelset::bodies_of(int i, int surface) const
 // An atom's mass is shared by the dashpots of all its contacts.
 void FixWallLevelset::share_masses()
 {
+  const bigint now[2] = {changes, lender ? lender->counted() : 0};
+  if (std::equal(now, now + 2, shared_at)) return;
+  std::copy(now, now + 2, shared_at);
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.source[k];
     auto bodies = bodies_of(i, surface_of[k]);

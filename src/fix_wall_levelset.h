@@ -73,6 +73,8 @@ class FixWallLevelset : public FixContacts {
   void close(int i, int surface, const apf::ContactHistory &);
   apf::ContactBodies bodies_of(int i, int surface) const;
   void share_masses();
+  bigint shared_at[2] = {-1,
+                         -1};    // changes here and counts of the lender when masses were shared
   void remove_ended();
   void gather();
   void scatter(int vflag);
