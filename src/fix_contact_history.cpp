@@ -72,6 +72,31 @@ void FixContactHistory::share_velocities()
 }
 
 /* ----------------------------------------------------------------------
+   sub-steps: the pair style has the contacts
+------------------------------------------------------------------------- */
+
+void FixContactHistory::find_approaching(apf::LookAhead &ahead)
+{
+  pair->find_approaching(ahead);
+}
+
+void FixContactHistory::find_near(apf::LookAhead &ahead)
+{
+  pair->find_near(ahead);
+}
+
+void FixContactHistory::find_stiffest(apf::Stiffest &stiffest)
+{
+  pair->find_stiffest(stiffest);
+}
+
+void FixContactHistory::sub_step(const apf::ContactTimes &times)
+{
+  contacts_change();
+  pair->sub_step(times);
+}
+
+/* ----------------------------------------------------------------------
    contacts of each atom, which share its mass between their dashpots; counted from what is closed
    now, so that neither ranks nor rebuilds of the neighbour list matter
 ------------------------------------------------------------------------- */
@@ -120,14 +145,13 @@ int FixContactHistory::pack_forward_comm(int n, int *list, double *buf, int pbc_
     dv[1] = pbc[1] * domain->h_rate[1] + pbc[3] * domain->h_rate[3];
     dv[2] = pbc[2] * domain->h_rate[2];
   }
-  int m = 0;
-  for (int k = 0; k < n; k++) {
+  for (int k = 0; k < n; k++, buf += 6) {
     const int i = list[k];
-    const bool remapped = domain->deform_vremap && (atom->mask[i] & domain->deform_groupbit);
-    for (int c = 0; c < 3; c++) buf[m++] = velocities.v[3 * i + c] + (remapped ? dv[c] : 0.0);
-    for (int c = 0; c < 3; c++) buf[m++] = velocities.omega[3 * i + c];
+    velocities.bodies.motion(i, buf, buf + 3);
+    if (domain->deform_vremap && (atom->mask[i] & domain->deform_groupbit))
+      for (int c = 0; c < 3; c++) buf[c] += dv[c];
   }
-  return m;
+  return 6 * n;
 }
 
 void FixContactHistory::unpack_forward_comm(int n, int first, double *buf)
@@ -136,10 +160,7 @@ void FixContactHistory::unpack_forward_comm(int n, int first, double *buf)
     std::copy(buf, buf + n, &counts[first]);
     return;
   }
-  for (int i = first; i < first + n; i++) {
-    for (int c = 0; c < 3; c++) velocities.v[3 * i + c] = *buf++;
-    for (int c = 0; c < 3; c++) velocities.omega[3 * i + c] = *buf++;
-  }
+  for (int i = first; i < first + n; i++, buf += 6) velocities.bodies.set_motion(i, buf, buf + 3);
 }
 
 /* ----------------------------------------------------------------------

@@ -30,6 +30,11 @@ class FixContactHistory : public FixContacts {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
 
+  void find_approaching(apf::LookAhead &) override;
+  void find_near(apf::LookAhead &) override;
+  void find_stiffest(apf::Stiffest &) override;
+  void sub_step(const apf::ContactTimes &) override;
+
   void serve(class PairGranularAdhesive *style) { pair = style; }
 
   // history of atom i's contact with the atom of that ID at the last rebuild; nullptr if none
@@ -38,14 +43,16 @@ class FixContactHistory : public FixContacts {
   // Counts contacts, with particles and walls, where some were made or have ended on any rank since
   // the last count; returns whether so. Collective.
   bool count_contacts();
-  double count(int i) const { return counts[i]; }              // of local and ghost atoms
-  double pair_count(int i) const { return pair_counts[i]; }    // with particles only, local atoms
-  bigint counted() const { return times_counted; }             // so often until now
+  double count(int i) const { return at(counts, i); }    // of local and ghost atoms
+  double pair_count(int i) const
+  {
+    return at(pair_counts, i);
+  }                                                   // with particles only, local atoms
+  bigint counted() const { return times_counted; }    // so often until now
   using FixContacts::count_anew;
 
-  // velocities of the last forces, local and ghost atoms: [atoms][3]
-  const double *velocity() const { return velocities.v.data(); }
-  const double *omega() const { return velocities.omega.data(); }
+  // positions and velocities of the last forces, and these forces; local and ghost atoms
+  apf::Bodies &bodies() { return velocities.bodies; }
   int level() const override;
   using FixContacts::last_times;
   using FixContacts::step_of_level;
@@ -69,6 +76,10 @@ class FixContactHistory : public FixContacts {
   std::vector<int> sent;    // records that each ghost has sent to its owner
 
   void send_to_owners();
+  static double at(const std::vector<double> &numbers, int i)    // 0 before the first count
+  {
+    return i < static_cast<int>(numbers.size()) ? numbers[i] : 0.0;
+  }
 };
 
 }    // namespace LAMMPS_NS

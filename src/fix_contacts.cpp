@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "modify.h"
 #include "respa.h"
 #include "update.h"
@@ -11,7 +12,8 @@ using namespace FixConst;
 
 /* ---------------------------------------------------------------------- */
 
-FixContacts::FixContacts(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixContacts::FixContacts(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), velocities(domain->dimension == 2)
 {
   restart_peratom = 1;
   restart_global = 1;    // write_restart() also brings the per-atom data up to date
@@ -71,6 +73,7 @@ const apf::ContactTimes &FixContacts::take_velocities()
   MPI_Allreduce(MPI_IN_PLACE, &goes_on, 1, MPI_INT, MPI_MIN, world);
   if (goes_on) {
     taken.behind = last_behind;
+    velocities.use_positions(atom);
     share_velocities();
   } else {
     taken.behind = 0.0;

@@ -5,6 +5,7 @@
 
 #include "contact/contact_law.h"
 #include "contact_store.h"
+#include "timestep/look_ahead.h"
 #include "used_velocity.h"
 
 namespace LAMMPS_NS {
@@ -41,6 +42,16 @@ class FixContacts : public Fix {
 
   bigint changes_so_far() const { return changes; }    // contacts made and ended
   void count_into(double *counts) { add_counts(counts); }
+
+  // ---- sub-steps of a particle step, for fix nve/sphere/mts
+  // bodies that touch or approach become active; the pairs that this brings about are remembered
+  virtual void find_approaching(apf::LookAhead &) = 0;
+  // the same for bodies that an active one may strike, or that may be struck by it
+  virtual void find_near(apf::LookAhead &) = 0;
+  virtual void find_stiffest(apf::Stiffest &) = 0;    // of those that touch or may touch
+  // forces of all contacts onto the rows of the particles, which stand half a sub-step before the
+  // positions; contacts are made and ended
+  virtual void sub_step(const apf::ContactTimes &) = 0;
 
  protected:
   ContactStore store;

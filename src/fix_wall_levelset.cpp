@@ -6,6 +6,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
+#include "math_extra.h"
 #include "modify.h"
 #include "respa.h"
 #include "update.h"
@@ -21,7 +22,7 @@ static constexpr const char *command = "Fix wall/levelset";
 /* ---------------------------------------------------------------------- */
 
 FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
-    FixContacts(lmp, narg, arg), kernel(nullptr)
+    FixContacts(lmp, narg, arg), kernel(nullptr), rows(domain->dimension == 2)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, 2,
@@ -82,7 +83,7 @@ void FixWallLevelset::init()
   // the pair style computes first and on the same level: its velocities serve here too
   lender = nullptr;
   for (const auto &fix : modify->get_fix_by_style("^contact/history")) {
-    const auto *history = dynamic_cast<FixContactHistory *>(fix);
+    auto *history = dynamic_cast<FixContactHistory *>(fix);
     if (!utils::strmatch(update->integrate_style, "^respa") || history->level() == level())
       lender = history;
   }
@@ -162,40 +163,47 @@ void FixWallLevelset::post_force(int vflag)
   detect();
   share_masses();
   gather();
-  if (contacts.size() > 0)
-    kernel(contacts,
-           {rows.x.data(), rows.v.data(), rows.omega.data(), rows.f.data(), rows.torque.data()},
-           times, nullptr);
-  scatter(vflag);
-  remove_ended();
+  const int ended = kernel(contacts, rows, times, nullptr);
+  return_loads();
+  tally(vflag);
+  if (ended) remove_ended(false);
+}
+
+// The particles' rows: position and velocity of the last forces, and the loads of all contacts.
+apf::Bodies &FixWallLevelset::particles()
+{
+  return lender ? lender->bodies() : velocities.bodies;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixWallLevelset::detect()
 {
-  for (int s = 0; s < static_cast<int>(surfaces.size()); s++) {
-    const auto &surface = surfaces[s];
-    for (int i = 0; i < atom->nlocal; i++) {
-      if (!(atom->mask[i] & groupbit)) continue;
-      const double distance = surface.distance(atom->x[i]);
-      if (distance > atom->radius[i] || (touched[i] >> s & 1)) continue;
-      if (distance <= 0.0)
-        error->one(FLERR, Error::NOLASTLINE,
-                   "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
-                   "inside, or use a smaller timestep",
-                   command, id, atom->tag[i], -distance);
-      close(i, s, apf::ContactHistory());
-      captured += 1.0;
-    }
-  }
+  for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit) touch(i, s, surfaces[s].distance(atom->x[i]));
+}
+
+// closes the contact if there is one and it is new
+void FixWallLevelset::touch(int i, int surface, double distance)
+{
+  if (distance > atom->radius[i] || (touched[i] >> surface & 1)) return;
+  if (distance <= 0.0)
+    error->one(FLERR, Error::NOLASTLINE,
+               "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
+               "inside, or use a smaller timestep",
+               command, id, atom->tag[i], -distance);
+  close(i, surface, apf::ContactHistory());
+  captured += 1.0;
 }
 
 void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &history)
 {
   const int k = contacts.size();
-  contacts.add(2 * k, 2 * k + 1, i,
-               apf::ContactConstants::make(coefficient.model, bodies_of(i, surface)), history);
+  auto bodies = bodies_of(i, surface);
+  contacts.add(2 * k, 2 * k + 1, i, kinds.find(surface, coefficient.model, bodies), history);
+  bodies.crowding = crowding(i) + 1.0;
+  contacts.set_crowding(k, bodies);
   surface_of.push_back(surface);
   touched[i] |= 1u << surface;
   count_anew();
@@ -223,10 +231,17 @@ void FixWallLevelset::share_masses()
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.source[k];
     auto bodies = bodies_of(i, surface_of[k]);
-    bodies.crowding = lender ? lender->pair_count(i) : 0.0;
-    for (unsigned bits = touched[i]; bits; bits >>= 1) bodies.crowding += bits & 1;
+    bodies.crowding = crowding(i);
     contacts.set_crowding(k, bodies);
   }
+}
+
+// contacts of an atom, with particles and with this wall
+double FixWallLevelset::crowding(int i) const
+{
+  double n = lender ? lender->pair_count(i) : 0.0;
+  for (unsigned bits = touched[i]; bits; bits >>= 1) n += bits & 1;
+  return n;
 }
 
 void FixWallLevelset::add_counts(double *counts)
@@ -235,10 +250,11 @@ void FixWallLevelset::add_counts(double *counts)
   for (int i : contacts.source) counts[i] += 1.0;
 }
 
-void FixWallLevelset::remove_ended()
+void FixWallLevelset::remove_ended(bool in_sub_step)
 {
   for (int k = contacts.size() - 1; k >= 0; k--) {
     if (!contacts.ended(k)) continue;
+    if (in_sub_step) near.push_back({contacts.source[k], surface_of[k]});    // may touch again
     touched[contacts.source[k]] &= ~(1u << surface_of[k]);
     contacts.remove(k);
     surface_of[k] = surface_of.back();
@@ -256,46 +272,53 @@ void FixWallLevelset::remove_ended()
    rows of the kernel: particle and foot point; the wall is at rest
 ------------------------------------------------------------------------- */
 
-void FixWallLevelset::Rows::resize(int n)
-{
-  x.resize(3 * n);
-  v.assign(3 * n, 0.0);
-  omega.assign(3 * n, 0.0);
-  f.assign(3 * n, 0.0);
-  torque.assign(3 * n, 0.0);
-}
-
 void FixWallLevelset::gather()
 {
-  rows.resize(2 * contacts.size());
-  const double *v = lender ? lender->velocity() : velocities.v.data();
-  const double *omega = lender ? lender->omega() : velocities.omega.data();
-  for (int k = 0; k < contacts.size(); k++) {
+  const auto &from = particles();
+  const int n = contacts.size();
+  rows.resize(2 * n);
+  for (int k = 0; k < n; k++) {
     const int i = contacts.source[k];
     const auto &surface = surfaces[surface_of[k]];
-    if (surface.distance(atom->x[i]) <= 0.0)
+    double x[3], foot[3];
+    from.position(i, x);
+    if (surface.distance(x) <= 0.0)
       error->one(
           FLERR, Error::NOLASTLINE,
           "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
           command, id, atom->tag[i]);
-    std::copy(atom->x[i], atom->x[i] + 3, &rows.x[6 * k]);
-    std::copy(v + 3 * i, v + 3 * i + 3, &rows.v[6 * k]);
-    std::copy(omega + 3 * i, omega + 3 * i + 3, &rows.omega[6 * k]);
-    surface.foot(atom->x[i], &rows.x[6 * k + 3]);
+    surface.foot(x, foot);
+    rows.copy_row(from, i, 2 * k);
+    rows.place(2 * k + 1, foot);
+  }
+  rows.clear_loads(0, 2 * n);
+}
+
+// what the wall exerts on particles goes to their rows
+void FixWallLevelset::return_loads()
+{
+  auto &to = particles();
+  for (int k = 0; k < contacts.size(); k++) {
+    double f[3] = {}, torque[3] = {};
+    rows.add_load_to(2 * k, f, torque);
+    to.add_load(contacts.source[k], f, torque);
   }
 }
 
-void FixWallLevelset::scatter(int vflag)
+// ... and to LAMMPS: forces on particles and on the wall, virial
+void FixWallLevelset::tally(int vflag)
 {
   std::fill(loads, loads + 6, 0.0);
   loads_summed = false;
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.source[k];
-    const double *f = &rows.f[6 * k], *on_wall = f + 3, *moment = &rows.torque[6 * k + 3];
-    const double *foot = &rows.x[6 * k + 3];
+    double f[3] = {}, torque[3] = {}, on_wall[3] = {}, moment[3] = {}, foot[3];
+    rows.add_load_to(2 * k, f, torque);
+    rows.add_load_to(2 * k + 1, on_wall, moment);
+    rows.position(2 * k + 1, foot);
     for (int c = 0; c < 3; c++) {
       atom->f[i][c] += f[c];
-      atom->torque[i][c] += rows.torque[6 * k + c];
+      atom->torque[i][c] += torque[c];
       const int a = (c + 1) % 3, b = (c + 2) % 3;
       loads[c] += on_wall[c];
       loads[3 + c] += foot[a] * on_wall[b] - foot[b] * on_wall[a] + moment[c];
@@ -309,6 +332,66 @@ void FixWallLevelset::scatter(int vflag)
       v_tally(1, &one, 1.0, virial_of_contact);
     }
   }
+}
+
+/* ----------------------------------------------------------------------
+   sub-steps, see FixContacts
+------------------------------------------------------------------------- */
+
+void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
+{
+  near.clear();
+  perhaps.clear();
+  const double farthest = ahead.distance(ahead.limit);
+  const auto &bodies = particles();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    for (int s = 0; s < static_cast<int>(surfaces.size()); s++) {
+      const bool closed = touched[i] >> s & 1;
+      const double gap = surfaces[s].distance(atom->x[i]) - atom->radius[i];
+      if (!closed && gap > farthest) continue;
+      double v[3], omega[3], x[3], foot[3], n[3];
+      bodies.motion(i, v, omega);
+      bodies.position(i, x);
+      surfaces[s].foot(x, foot);
+      MathExtra::sub3(foot, x, n);
+      MathExtra::norm3(n);
+      if (closed || gap <= ahead.distance(MathExtra::dot3(v, n))) {
+        ahead.meet(i, MathExtra::len3(v));
+        if (!closed) near.push_back({i, s});
+      } else {
+        perhaps.push_back({i, s, gap});
+      }
+    }
+  }
+}
+
+void FixWallLevelset::find_near(apf::LookAhead &ahead)
+{
+  for (const auto &[i, s, gap] : perhaps)
+    if (ahead.activity[i] == apf::ACTIVE && gap <= ahead.distance(ahead.fastest))
+      near.push_back({i, s});
+}
+
+void FixWallLevelset::sub_step(const apf::ContactTimes &times)
+{
+  double x[3];
+  for (const auto &[i, s] : near) {
+    particles().position(i, x);
+    touch(i, s, surfaces[s].distance(x));
+  }
+  gather();
+  const int ended = kernel(contacts, rows, times, nullptr);
+  return_loads();
+  contacts_change();
+  if (ended) remove_ended(true);
+}
+
+void FixWallLevelset::find_stiffest(apf::Stiffest &stiffest)
+{
+  contacts.find_stiffest(stiffest);
+  for (const auto &[i, s] : near)
+    stiffest.include(kinds.find(s, coefficient.model, bodies_of(i, s)).mode, 0.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -349,10 +432,7 @@ double FixWallLevelset::compute_scalar()
   if (contacts.size() > 0) {
     std::vector<apf::ContactParts> parts(contacts.size());
     gather();    // remove_ended() has renumbered the rows
-    std::vector<double> unused(rows.f.size()), unused_torque(rows.f.size());
-    kernel(contacts,
-           {rows.x.data(), rows.v.data(), rows.omega.data(), unused.data(), unused_torque.data()},
-           lender ? lender->last_times() : last_times(), parts.data());
+    kernel(contacts, rows, lender ? lender->last_times() : last_times(), parts.data());
     for (const auto &p : parts)
       energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
   }
@@ -419,5 +499,5 @@ int FixWallLevelset::image(int *&objects, double **&values)
 double FixWallLevelset::memory_usage()
 {
   return FixContacts::memory_usage() + contacts.memory_usage() +
-      touched.capacity() * sizeof(unsigned) + 5 * rows.x.capacity() * sizeof(double);
+      touched.capacity() * sizeof(unsigned) + rows.memory_usage();
 }

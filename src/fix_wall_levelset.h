@@ -35,6 +35,11 @@ class FixWallLevelset : public FixContacts {
   int image(int *&, double **&) override;
   double memory_usage() override;
 
+  void find_approaching(apf::LookAhead &) override;
+  void find_near(apf::LookAhead &) override;
+  void sub_step(const apf::ContactTimes &) override;
+  void find_stiffest(apf::Stiffest &) override;
+
  protected:
   void store_contacts() override;
   void add_counts(double *) override;
@@ -48,18 +53,25 @@ class FixWallLevelset : public FixContacts {
   apf::KernelChoice choice;
   apf::ContactKernel kernel;
 
-  // One contact = one particle at one surface. Rows 2k and 2k+1 of `rows` are the particle and its
-  // foot point on the wall, a body without radius.
+  // One contact = one particle at one surface. Rows 2k and 2k+1 of `rows` are a copy of the particle
+  // and its foot point on the wall, a body without radius.
   apf::ContactList contacts;
   std::vector<int> surface_of;      // surface of each contact; its atom is contacts.source
   std::vector<unsigned> touched;    // per atom: bit s set if it is in contact with surface s
-  struct Rows {
-    std::vector<double> x, v, omega, f, torque;
-    void resize(int n);
-  } rows;
+  apf::Bodies rows;
+  struct Near {
+    int i, surface;
+  };
+  std::vector<Near> near;    // particles that may touch within the present particle step
+  struct Perhaps {
+    int i, surface;
+    double gap;
+  };
+  std::vector<Perhaps> perhaps;    // ... if another strikes them
+  apf::ContactKinds kinds;
 
   bool rebuild = true;
-  const class FixContactHistory *lender = nullptr;    // has the velocities already: pair's fix
+  class FixContactHistory *lender = nullptr;    // has the particles' rows already: pair's fix
   class Fix *rigid = nullptr;
   double captured = 0.0, detached = 0.0;    // contacts begun and ended, of this rank
   double loads[6] = {};                     // force and torque on the wall, of this rank
@@ -68,16 +80,20 @@ class FixWallLevelset : public FixContacts {
   std::vector<int> count_of_atom;    // for other styles: contacts of each atom
   std::unique_ptr<WallImage> drawn;
 
+  apf::Bodies &particles();
   void find_again();
   void detect();
+  void touch(int i, int surface, double distance);
   void close(int i, int surface, const apf::ContactHistory &);
   apf::ContactBodies bodies_of(int i, int surface) const;
+  double crowding(int i) const;
   void share_masses();
   bigint shared_at[2] = {-1,
                          -1};    // changes here and counts of the lender when masses were shared
-  void remove_ended();
+  void remove_ended(bool in_sub_step);
   void gather();
-  void scatter(int vflag);
+  void return_loads();
+  void tally(int vflag);
 };
 
 }    // namespace LAMMPS_NS

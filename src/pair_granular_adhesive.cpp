@@ -74,28 +74,68 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
     build_candidates();
   }
   const auto times = store->take_velocities();
+  auto &bodies = store->bodies();
+  bodies.clear_loads(0, atom->nlocal + atom->nghost);
   // contacts open with first touch and end with the neck
-  if (candidates.size() > 0)
-    candidates.detect(&atom->x[0][0], [this](int k) {
-      close(k, apf::ContactHistory());
-    });
-
+  detect(true);
   if (store->count_contacts()) share_masses();
 
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
-  if (contacts.size() > 0)
-    kernel(contacts, bodies(&atom->f[0][0], &atom->torque[0][0]), times,
-           tallied ? parts.data() : nullptr);
+  const int ended = kernel(contacts, bodies, times, tallied ? parts.data() : nullptr);
 
-  // a ghost's force belongs to another rank, which has computed it as well
-  if (!force->newton_pair && atom->nghost > 0) {
-    memset(atom->f[atom->nlocal], 0, 3 * sizeof(double) * atom->nghost);
-    memset(atom->torque[atom->nlocal], 0, 3 * sizeof(double) * atom->nghost);
-  }
+  // a ghost's force belongs to another rank, which has computed it as well where newton is off
+  const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
+  for (int i = 0; i < n; i++) bodies.add_load_to(i, atom->f[i], atom->torque[i]);
   if (tallied) tally(eflag);
-  remove_ended();
+  if (ended) remove_ended(false);
   parts_step = -1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::detect(bool all)
+{
+  auto touches = [this](int k) {
+    close(k, apf::ContactHistory());
+  };
+  auto detect_rows = [&](const auto *rows) {
+    if (all)
+      candidates.detect(rows, touches);
+    else
+      candidates.detect_near(rows, touches);
+  };
+  if (choice.planar)
+    detect_rows(store->bodies().rows<apf::PlaneRow>());
+  else
+    detect_rows(store->bodies().rows<apf::SpaceRow>());
+}
+
+/* ----------------------------------------------------------------------
+   sub-steps of a particle step
+------------------------------------------------------------------------- */
+
+void PairGranularAdhesive::find_approaching(apf::LookAhead &ahead)
+{
+  if (choice.planar)
+    candidates.find_approaching(store->bodies().rows<apf::PlaneRow>(), ahead);
+  else
+    candidates.find_approaching(store->bodies().rows<apf::SpaceRow>(), ahead);
+}
+
+void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
+{
+  contacts.find_stiffest(stiffest);
+  for (const int k : candidates.near)
+    stiffest.include(kind_of(candidates.i[k], candidates.j[k]).mode, 0.0);
+}
+
+// Masses are shared anew at the next particle step; contacts made until then count their bodies'
+// contacts as they were, so that ranks agree.
+void PairGranularAdhesive::sub_step(const apf::ContactTimes &times)
+{
+  detect(false);
+  if (kernel(contacts, store->bodies(), times, nullptr)) remove_ended(true);
 }
 
 /* ----------------------------------------------------------------------
@@ -128,10 +168,17 @@ void PairGranularAdhesive::build_candidates()
 void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
 {
   const int i = candidates.i[k], j = candidates.j[k];
-  const auto &model = coefficients[atom->type[i]][atom->type[j]].model;
-  contacts.add(i, j, k, apf::ContactConstants::make(model, bodies_of(i, j, 1.0, 1.0)), history);
+  const int added = contacts.add(i, j, k, kind_of(i, j), history);
+  contacts.set_crowding(added, bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0));
   candidates.closed[k] = 1;
   store->count_anew();
+}
+
+const apf::ContactKind &PairGranularAdhesive::kind_of(int i, int j)
+{
+  const int ti = atom->type[i], tj = atom->type[j];
+  return kinds.find(ti * (atom->ntypes + 1) + tj, coefficients[ti][tj].model,
+                    bodies_of(i, j, 1.0, 1.0));
 }
 
 /* ----------------------------------------------------------------------
@@ -172,21 +219,15 @@ void PairGranularAdhesive::share_masses()
 
 /* ---------------------------------------------------------------------- */
 
-void PairGranularAdhesive::remove_ended()
+void PairGranularAdhesive::remove_ended(bool in_sub_step)
 {
   for (int k = contacts.size() - 1; k >= 0; k--)
     if (contacts.ended(k)) {
       candidates.closed[contacts.source[k]] = 0;
+      if (in_sub_step) candidates.near.push_back(contacts.source[k]);    // they may touch again
       store->count_anew();
       contacts.remove(k);
     }
-}
-
-/* ---------------------------------------------------------------------- */
-
-apf::Bodies PairGranularAdhesive::bodies(double *f, double *torque) const
-{
-  return {&atom->x[0][0], store->velocity(), store->omega(), f, torque};
 }
 
 /* ----------------------------------------------------------------------
@@ -318,6 +359,7 @@ void PairGranularAdhesive::init_style()
   sizes = TypeSizes::find(lmp, "Pair granular/adhesive");
   check_scene(lmp, "Pair granular/adhesive", 2.0 * sizes.largest_radius());
   neck_max = 0.0;    // init_one finds it
+  kinds.forget();
   choice = apf::KernelChoice();
   choice.planar = domain->dimension == 2;
 }
@@ -359,6 +401,11 @@ double PairGranularAdhesive::init_one(int i, int j)
 
 void PairGranularAdhesive::setup()
 {
+  check_timestep(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());
+}
+
+apf::StiffestMode PairGranularAdhesive::stiffest_possible() const
+{
   apf::StiffestMode worst;
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
@@ -369,7 +416,7 @@ void PairGranularAdhesive::setup()
       const auto bodies = apf::ContactBodies::pair(ri, rj, mi * mj / (mi + mj), 1.0 / inv_I);
       worst = std::max(worst, apf::stiffest_mode(coefficients[i][j].model, bodies));
     }
-  check_timestep(lmp, "Pair granular/adhesive", worst, store->step_of_level());
+  return worst;
 }
 
 /* ----------------------------------------------------------------------
@@ -454,10 +501,8 @@ void PairGranularAdhesive::evaluate_parts()
   parts_step = update->ntimestep;
   parts.resize(contacts.size());
   index_of_pair.clear();
-  if (contacts.size() == 0) return;
-  std::vector<double> unused(6 * static_cast<size_t>(atom->nmax));
-  kernel(contacts, bodies(unused.data(), unused.data() + 3 * static_cast<size_t>(atom->nmax)),
-         store->last_times(), parts.data());
+  auto bodies = store->bodies();    // a copy: loads stay as they are
+  kernel(contacts, bodies, store->last_times(), parts.data());
   for (int k = 0; k < contacts.size(); k++)
     index_of_pair[(static_cast<uint64_t>(contacts.i[k]) << 32) |
                   static_cast<uint32_t>(contacts.j[k])] = k;

@@ -44,10 +44,18 @@ class PairGranularAdhesive : public Pair {
   double longest_neck() const { return neck_max; }
   bool planar() const { return choice.planar; }
   void list_was_built() { rebuild = true; }
+  apf::StiffestMode stiffest_possible() const;    // of any two particles
+
+  // sub-steps of a particle step, see FixContacts
+  void find_approaching(apf::LookAhead &);
+  void find_near(apf::LookAhead &ahead) { candidates.find_near(ahead); }
+  void find_stiffest(apf::Stiffest &);
+  void sub_step(const apf::ContactTimes &);
 
  private:
   apf::Candidates candidates;    // pairs of the neighbour list
   apf::ContactList contacts;
+  apf::ContactKinds kinds;
   apf::KernelChoice choice;
   apf::ContactKernel kernel = nullptr;
   std::vector<std::vector<ContactCoeff>> coefficients;    // [1..ntypes][1..ntypes]
@@ -69,13 +77,14 @@ class PairGranularAdhesive : public Pair {
   void allocate();
   void find_rigid_masses();
   void build_candidates();
+  void detect(bool all);
   void close(int candidate, const apf::ContactHistory &);
   apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
+  const apf::ContactKind &kind_of(int i, int j);
   void share_masses();
-  void remove_ended();
+  void remove_ended(bool in_sub_step);
   void tally(int eflag);
   void evaluate_parts();
-  apf::Bodies bodies(double *f, double *torque) const;
 };
 
 }    // namespace LAMMPS_NS

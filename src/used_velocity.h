@@ -1,11 +1,13 @@
-// The velocities that contact forces were last computed with. Leapfrog steps compute forces with
-// velocities half a step older than the positions. Who looks at contacts later, or goes on from the
-// end of a run or from a restart file, needs these again: velocities have moved on by then.
+// The bodies as contact forces were last computed with: LAMMPS's atoms in the rows that the kernel
+// reads. Leapfrog steps compute forces with velocities half a step older than the positions. Who looks
+// at contacts later, or goes on from the end of a run or from a restart file, needs these velocities
+// again: those of the atoms have moved on by then.
 
 #ifndef APF_USED_VELOCITY_H
 #define APF_USED_VELOCITY_H
 
 #include "atom.h"
+#include "contact/bodies.h"
 
 #include <algorithm>
 #include <array>
@@ -17,22 +19,28 @@ class UsedVelocity {
  public:
   static constexpr int size = 12;    // doubles per atom that migrate with it
 
-  std::vector<double> v, omega;    // [local and ghost atoms][3], contiguous
+  apf::Bodies bodies;    // rows: local and ghost atoms
+
+  explicit UsedVelocity(bool planar) : bodies(planar) {}
 
   void grow(int nmax)
   {
     if (static_cast<int>(end.size()) >= nmax) return;
     end.resize(nmax);
-    v.resize(3 * static_cast<size_t>(nmax));
-    omega.resize(3 * static_cast<size_t>(nmax));
+    bodies.resize(nmax);
   }
 
+  // positions and velocities as they are now
   void use(const Atom *atom)
   {
-    const int n = 3 * (atom->nlocal + atom->nghost);
-    if (n == 0) return;
-    std::copy(&atom->v[0][0], &atom->v[0][0] + n, v.begin());
-    std::copy(&atom->omega[0][0], &atom->omega[0][0] + n, omega.begin());
+    use_positions(atom);
+    for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+      bodies.set_motion(i, atom->v[i], atom->omega[i]);
+  }
+
+  void use_positions(const Atom *atom)
+  {
+    for (int i = 0; i < atom->nlocal + atom->nghost; i++) bodies.place(i, atom->x[i]);
   }
 
   // true if all local atoms have the velocities with which the last run ended
@@ -53,23 +61,20 @@ class UsedVelocity {
   void copy(int from, int to)
   {
     end[to] = end[from];
-    std::copy(&v[3 * from], &v[3 * from] + 3, &v[3 * to]);
-    std::copy(&omega[3 * from], &omega[3 * from] + 3, &omega[3 * to]);
+    bodies.copy_row(bodies, from, to);
   }
 
   int pack(int i, double *buf) const
   {
     buf = std::copy(end[i].begin(), end[i].end(), buf);
-    buf = std::copy(&v[3 * i], &v[3 * i] + 3, buf);
-    std::copy(&omega[3 * i], &omega[3 * i] + 3, buf);
+    bodies.motion(i, buf, buf + 3);
     return size;
   }
 
   int unpack(int i, const double *buf)
   {
     std::copy(buf, buf + 6, end[i].begin());
-    std::copy(buf + 6, buf + 9, &v[3 * i]);
-    std::copy(buf + 9, buf + 12, &omega[3 * i]);
+    bodies.set_motion(i, buf + 6, buf + 9);
     return size;
   }
 

@@ -4,14 +4,17 @@
 #ifndef APF_CANDIDATES_H
 #define APF_CANDIDATES_H
 
+#include "../timestep/look_ahead.h"
+
 #include <vector>
 
 namespace apf {
 
 struct Candidates {
-  std::vector<int> i, j;         // rows of the two bodies
-  std::vector<double> touch2;    // (r_i + r_j)^2                            [length^2]
-  std::vector<char> closed;      // in contact
+  std::vector<int> i, j;        // rows of the two bodies
+  std::vector<double> touch;    // r_i + r_j                                  [length]
+  std::vector<char> closed;     // in contact
+  std::vector<int> near;        // pairs that may touch within the present particle step
 
   int size() const { return static_cast<int>(i.size()); }
 
@@ -19,26 +22,65 @@ struct Candidates {
   {
     i.clear();
     j.clear();
-    touch2.clear();
+    touch.clear();
     closed.clear();
+    near.clear();
   }
 
   int add(int body_i, int body_j, double radius_sum)
   {
     i.push_back(body_i);
     j.push_back(body_j);
-    touch2.push_back(radius_sum * radius_sum);
+    touch.push_back(radius_sum);
     closed.push_back(0);
     return size() - 1;
   }
 
-  // calls touches(k) for every pair that is not closed and overlaps; x is [rows][3], contiguous
-  template <class Action> void detect(const double *x, Action touches) const
+  // calls touches(k) for every pair that is not closed and overlaps
+  template <class Row, class Action> void detect(const Row *rows, Action touches) const
   {
+    for (int k = 0; k < size(); k++)
+      if (overlap(k, rows) && !closed[k]) touches(k);
+  }
+  // the same for the pairs near each other
+  template <class Row, class Action> void detect_near(const Row *rows, Action touches) const
+  {
+    for (const int k : near)
+      if (overlap(k, rows) && !closed[k]) touches(k);
+  }
+
+  // Look-ahead, first part: bodies that touch or approach become active; those pairs come into
+  // `near`, and pairs that may meet if one is struck into `perhaps`.
+  template <class Row> void find_approaching(const Row *rows, LookAhead &ahead)
+  {
+    near.clear();
+    perhaps.clear();
+    const double farthest = ahead.distance(ahead.limit);
     for (int k = 0; k < size(); k++) {
-      const double *xi = x + 3 * i[k], *xj = x + 3 * j[k];
-      const double dx = xj[0] - xi[0], dy = xj[1] - xi[1], dz = xj[2] - xi[2];
-      if (dx * dx + dy * dy + dz * dz <= touch2[k] && !closed[k]) touches(k);
+      const Row &a = rows[i[k]], &b = rows[j[k]];
+      const double most = touch[k] + farthest;
+      if (distance2(a, b) > most * most) continue;
+      const auto approach = Approach::of(a, b, touch[k]);
+      if (closed[k] || approach.gap <= ahead.distance(approach.closing_speed)) {
+        ahead.meet(i[k], approach.relative_speed);
+        ahead.meet(j[k], approach.relative_speed);
+        if (!closed[k]) near.push_back(k);
+      } else {
+        perhaps.push_back({k, approach.gap});
+      }
+    }
+  }
+
+  // Second part, when the activities of all bodies and the fastest of them are known.
+  void find_near(LookAhead &ahead)
+  {
+    const double far = ahead.distance(ahead.fastest);
+    for (const auto &[k, gap] : perhaps) {
+      if (gap > far) continue;
+      if (ahead.activity[i[k]] != ACTIVE && ahead.activity[j[k]] != ACTIVE) continue;
+      near.push_back(k);
+      ahead.come_near(i[k]);
+      ahead.come_near(j[k]);
     }
   }
 
@@ -46,6 +88,24 @@ struct Candidates {
   double memory_usage() const
   {
     return i.capacity() * (2.0 * sizeof(int) + sizeof(double) + sizeof(char));
+  }
+
+ private:
+  struct Pair {
+    int k;
+    double gap;
+  };
+  std::vector<Pair> perhaps;
+
+  template <class Row> static double distance2(const Row &a, const Row &b)
+  {
+    double sum = 0.0;
+    for (int c = 0; c < Row::dim; c++) sum += (b.x[c] - a.x[c]) * (b.x[c] - a.x[c]);
+    return sum;
+  }
+  template <class Row> bool overlap(int k, const Row *rows) const
+  {
+    return distance2(rows[i[k]], rows[j[k]]) <= touch[k] * touch[k];
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include "contact_kernel.h"
 
+#include <type_traits>
+
 #ifndef APF_ISA
 #define APF_ISA baseline
 #endif
@@ -88,41 +90,41 @@ struct Arrays {
 };
 static_assert(ContactList::n_constants == 19, "Arrays::at lists every constant");
 
+template <class Frame> using RowOf = std::conditional_t<Frame::planar, PlaneRow, SpaceRow>;
+
 template <class Frame>
-void gather(const ContactList &list, const Bodies &b, int first, int n, Block &block)
+void gather(const ContactList &list, const RowOf<Frame> *rows, int first, int n, Block &block)
 {
-  constexpr int dim = Frame::planar ? 2 : 3;
-  constexpr int spin0 = Frame::planar ? 2 : 0;
+  constexpr int spin0 = 3 - RowOf<Frame>::spin_dim;
   for (int l = 0; l < width; l++) {
     const int k = first + (l < n ? l : n - 1);    // an incomplete block repeats its last contact
-    const int i = 3 * list.i[k], j = 3 * list.j[k];
-    for (int c = 0; c < dim; c++) {
-      block.d[c][l] = b.x[j + c] - b.x[i + c];
-      block.v[c][l] = b.v[i + c] - b.v[j + c];
+    const auto &i = rows[list.i[k]], &j = rows[list.j[k]];
+    for (int c = 0; c < i.dim; c++) {
+      block.d[c][l] = j.x[c] - i.x[c];
+      block.v[c][l] = i.v[c] - j.v[c];
     }
-    for (int c = spin0; c < 3; c++) {
-      block.spin_i[c][l] = b.omega[i + c];
-      block.spin_j[c][l] = b.omega[j + c];
+    for (int c = 0; c < i.spin_dim; c++) {
+      block.spin_i[spin0 + c][l] = i.omega[c];
+      block.spin_j[spin0 + c][l] = j.omega[c];
     }
   }
 }
 
 template <class Frame, bool torques>
-void scatter(const ContactList &list, const Bodies &b, int first, int n, const Block &block)
+void scatter(const ContactList &list, RowOf<Frame> *rows, int first, int n, const Block &block)
 {
-  constexpr int dim = Frame::planar ? 2 : 3;
-  constexpr int spin0 = Frame::planar ? 2 : 0;
+  constexpr int spin0 = 3 - RowOf<Frame>::spin_dim;
   for (int l = 0; l < n; l++) {
     const int k = first + l;
-    const int i = 3 * list.i[k], j = 3 * list.j[k];
-    for (int c = 0; c < dim; c++) {
-      b.f[i + c] += block.force[c][l];
-      b.f[j + c] -= block.force[c][l];
+    auto &i = rows[list.i[k]], &j = rows[list.j[k]];
+    for (int c = 0; c < i.dim; c++) {
+      i.f[c] += block.force[c][l];
+      j.f[c] -= block.force[c][l];
     }
     if constexpr (torques)
-      for (int c = spin0; c < 3; c++) {
-        b.torque[i + c] += block.torque_i[c][l];
-        b.torque[j + c] += block.torque_j[c][l];
+      for (int c = 0; c < i.spin_dim; c++) {
+        i.torque[c] += block.torque_i[spin0 + c][l];
+        j.torque[c] += block.torque_j[spin0 + c][l];
       }
   }
 }
@@ -201,14 +203,15 @@ APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l, ContactTi
 }
 
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-void kernel(ContactList &list, const Bodies &bodies, ContactTimes times, ContactParts *parts)
+int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactParts *parts)
 {
+  auto *rows = bodies.rows<RowOf<Frame>>();
   const Arrays arrays(list);
   Block block;
   const int size = list.size();
   for (int first = 0; first < size; first += width) {
     const int n = (size - first < width) ? size - first : width;
-    gather<Frame>(list, bodies, first, n, block);
+    gather<Frame>(list, rows, first, n, block);
     if (n == width && !parts) {
 #pragma omp simd
       for (int l = 0; l < width; l++)
@@ -223,8 +226,11 @@ void kernel(ContactList &list, const Bodies &bodies, ContactTimes times, Contact
         lane<Frame, adhesion, sliding, twisting, rolling, true>(arrays, block, first + l, l, times,
                                                                 parts);
     }
-    scatter<Frame, sliding || twisting || rolling>(list, bodies, first, n, block);
+    scatter<Frame, sliding || twisting || rolling>(list, rows, first, n, block);
   }
+  int ended = 0;
+  for (int k = 0; k < size; k++) ended += list.ended(k);
+  return ended;
 }
 
 template <class Frame, bool adhesion, bool sliding, bool twisting>

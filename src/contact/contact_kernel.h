@@ -4,18 +4,10 @@
 #ifndef APF_CONTACT_KERNEL_H
 #define APF_CONTACT_KERNEL_H
 
+#include "bodies.h"
 #include "contact_law.h"
 
 namespace apf {
-
-// Rows that contacts refer to. All arrays are [rows][3], contiguous.
-struct Bodies {
-  const double *x;        // positions                                       [length]
-  const double *v;        // velocities, times.behind older than the positions [velocity]
-  const double *omega;    // angular velocities, as old                       [1/time]
-  double *f;              // forces, added to                                [force]
-  double *torque;         // torques, added to                               [force length]
-};
 
 // Which sub-models some contact of the list uses, and whether it lives in the xy plane.
 struct KernelChoice {
@@ -30,14 +22,16 @@ struct KernelChoice {
   }
 };
 
-using ContactKernel = void (*)(ContactList &list, const Bodies &bodies, ContactTimes times,
-                               ContactParts *parts);
+using ContactKernel = int (*)(ContactList &list, Bodies &bodies, ContactTimes times,
+                              ContactParts *parts);
 
 // The kernel for a choice. kernel(list, bodies, times, parts):
-//   adds forces and torques of all contacts to bodies.f and bodies.torque,
+//   adds forces and torques of all contacts to the loads of the bodies' rows, whose velocities are
+//   times.behind older than their positions,
 //   advances the histories by times.advance (0: evaluates only), sets list.overlap,
 //   and, where parts is not null, fills parts[0 .. list.size()-1].
-// Contacts beyond the end of their neck exert nothing; the caller removes them (list.ended).
+// Returns how many contacts are beyond the end of their neck: these exert nothing, the caller
+// removes them (list.ended).
 ContactKernel contact_kernel(const KernelChoice &choice);
 
 // The same, built for one instruction set; contact_kernel() takes the best this processor has.

@@ -7,7 +7,7 @@
 #ifndef APF_CONTACT_LIST_H
 #define APF_CONTACT_LIST_H
 
-#include "contact_model.h"
+#include "contact_kind.h"
 
 #include <array>
 #include <cstddef>
@@ -63,16 +63,18 @@ class ContactList {
   std::array<std::vector<double>, ContactHistory::size> history;    // ContactHistory
   std::vector<double> overlap;                                      // at the last update
   std::vector<int> source;    // caller's mark: candidate or wall the contact came from
+  std::vector<StiffestMode> mode;
 
   int size() const { return static_cast<int>(i.size()); }
 
-  int add(int body_i, int body_j, int mark, const ContactConstants &c, const ContactHistory &h)
+  int add(int body_i, int body_j, int mark, const ContactKind &kind, const ContactHistory &h)
   {
     i.push_back(body_i);
     j.push_back(body_j);
     source.push_back(mark);
+    mode.push_back(kind.mode);
     overlap.push_back(0.0);
-    const double *value = reinterpret_cast<const double *>(&c);
+    const double *value = reinterpret_cast<const double *>(&kind.constants);
     for (int n = 0; n < n_constants; n++) constants[n].push_back(value[n]);
     value = reinterpret_cast<const double *>(&h);
     for (int n = 0; n < ContactHistory::size; n++) history[n].push_back(value[n]);
@@ -92,6 +94,12 @@ class ContactList {
     for_each_array([](auto &array) {
       array.clear();
     });
+  }
+
+  // the stiffest mode of all contacts, as they are now
+  void find_stiffest(Stiffest &stiffest) const
+  {
+    for (int k = 0; k < size(); k++) stiffest.include(mode[k], overlap[k]);
   }
 
   ContactConstants constants_of(int k) const
@@ -126,7 +134,8 @@ class ContactList {
   double memory_usage() const
   {
     return i.capacity() *
-        (3.0 * sizeof(int) + (1.0 + n_constants + ContactHistory::size) * sizeof(double));
+        (3.0 * sizeof(int) + sizeof(StiffestMode) +
+         (1.0 + n_constants + ContactHistory::size) * sizeof(double));
   }
 
  private:
@@ -141,6 +150,7 @@ class ContactList {
     action(i);
     action(j);
     action(source);
+    action(mode);
     action(overlap);
     for (auto &array : constants) action(array);
     for (auto &array : history) action(array);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <utility>
 
 namespace apf {
 
@@ -23,10 +24,30 @@ constexpr double largest_stable_kappa = 0.8;
 constexpr double accurate_kappa = 0.3;
 
 struct StiffestMode {
-  double frequency = 0.0;    // [1/time]
-  const char *name = "normal";
+  double frequency = 0.0;    // at rest                                                [1/time]
+  double overlap = 1.0;      // at rest                                                [length]
+  double least = 0.0;        // overlap below which stiffness does not fall: at rest, 0 for Hertz
+  double impact = 0.0;       // an impact at the speed v compresses by impact v^(4/5) (Hertz)
+  const char *name = "none";
 
   bool operator<(const StiffestMode &other) const { return frequency < other.frequency; }
+};
+
+// The stiffest mode of many contacts, as they may become when bodies meet at a speed v: stiffnesses
+// grow at most as the contact radius, and that as the root of the overlap.
+struct Stiffest {
+  double v45 = 0.0;           // v^(4/5)
+  double frequency2 = 0.0;    // frequency squared                                   [1/time^2]
+  const char *name = "none";
+
+  void include(const StiffestMode &mode, double overlap)
+  {
+    const double deepest = std::max({overlap, mode.impact * v45, mode.least});
+    const double f2 = mode.frequency * mode.frequency * std::sqrt(deepest / mode.overlap);
+    if (f2 <= frequency2) return;
+    frequency2 = f2;
+    name = mode.name;
+  }
 };
 
 inline StiffestMode stiffest_mode(const ContactModel &model, const ContactBodies &bodies)
@@ -41,13 +62,17 @@ inline StiffestMode stiffest_mode(const ContactModel &model, const ContactBodies
   const double kq = model.twisting ? 0.5 * kt * a * a : 0.0;
   const double restore = std::pow(model.stiffness_scale, -0.4);
   const double kr = model.rolling() ? 4.0 * normal.pulloff_force() * restore * bodies.R : 0.0;
+  const double overlap = adhesive ? normal.equilibrium_overlap() : 0.01 * bodies.R;
+  const double least = adhesive ? overlap : 0.0;
+  // (1/2) m v^2 = (8/15) E sqrt(R) overlap^(5/2)
+  const double impact = std::pow(15.0 * bodies.m / (16.0 * E * std::sqrt(bodies.R)), 0.4);
 
   StiffestMode worst;
-  for (const StiffestMode &mode : {StiffestMode{std::sqrt(kn / bodies.m), "normal"},
-                                   StiffestMode{std::sqrt(3.5 * kt / bodies.m), "tangential"},
-                                   StiffestMode{std::sqrt(kq / bodies.I), "twisting"},
-                                   StiffestMode{std::sqrt(kr / bodies.I), "rolling"}})
-    worst = std::max(worst, mode);
+  for (const auto &[frequency, name] : {std::pair(std::sqrt(kn / bodies.m), "normal"),
+                                        std::pair(std::sqrt(3.5 * kt / bodies.m), "tangential"),
+                                        std::pair(std::sqrt(kq / bodies.I), "twisting"),
+                                        std::pair(std::sqrt(kr / bodies.I), "rolling")})
+    worst = std::max(worst, StiffestMode{frequency, overlap, least, impact, name});
   return worst;
 }
 

@@ -71,15 +71,15 @@ struct Crowd {
       h.twisting = choice.planar ? 0.0 : 0.1 * u(random);
     }
     const auto pair = ContactBodies::pair(r, r, 1.0 + 0.5 * u(random), 0.3);
-    list.add(i, j, k, ContactConstants::make(model, pair), h);
+    list.add(i, j, k, ContactKind::make(model, pair), h);
   }
 
   void evaluate(ContactKernel kernel, double dt, ContactParts *parts = nullptr)
   {
     std::fill(f.begin(), f.end(), 0.0);
     std::fill(torque.begin(), torque.end(), 0.0);
-    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, {dt, 0.0, 0.0},
-           parts);
+    run_kernel(kernel, choice.planar, list, bodies, x.data(), v.data(), omega.data(), f.data(),
+               torque.data(), {dt, 0.0, 0.0}, parts);
   }
   void evaluate(double dt, ContactParts *parts = nullptr)
   {
@@ -93,7 +93,7 @@ struct Crowd {
     const ContactList all = list;
     for (int k = 0; k < all.size(); k++) {
       list.clear();
-      list.add(all.i[k], all.j[k], all.source[k], all.constants_of(k), all.history_of(k));
+      list.add(all.i[k], all.j[k], all.source[k], {all.constants_of(k), {}}, all.history_of(k));
       evaluate(dt);
       for (size_t c = 0; c < f.size(); c++) {
         sum_f[c] += f[c];
@@ -216,12 +216,17 @@ TEST(Kernel, forces_are_added_to_what_is_there)
 {
   Crowd crowd(12, all_submodels, 5), again = crowd;
   crowd.evaluate(0.0);
-  std::fill(again.f.begin(), again.f.end(), 3.0);
-  std::fill(again.torque.begin(), again.torque.end(), -2.0);
-  contact_kernel(again.choice)(
-      again.list,
-      {again.x.data(), again.v.data(), again.omega.data(), again.f.data(), again.torque.data()},
-      {0.0, 0.0, 0.0}, nullptr);
+  Bodies bodies;
+  bodies.resize(Crowd::bodies);
+  for (int b = 0; b < Crowd::bodies; b++) {
+    bodies.place(b, &again.x[3 * b]);
+    bodies.set_motion(b, &again.v[3 * b], &again.omega[3 * b]);
+    const double f[3] = {3.0, 3.0, 3.0}, torque[3] = {-2.0, -2.0, -2.0};
+    bodies.add_load(b, f, torque);
+  }
+  contact_kernel(again.choice)(again.list, bodies, {0.0, 0.0, 0.0}, nullptr);
+  for (int b = 0; b < Crowd::bodies; b++)
+    bodies.add_load_to(b, &again.f[3 * b], &again.torque[3 * b]);
   for (size_t c = 0; c < crowd.f.size(); c++) {
     EXPECT_NEAR(again.f[c] - 3.0, crowd.f[c], 1e-13 * largest(crowd.f));
     EXPECT_NEAR(again.torque[c] + 2.0, crowd.torque[c], 1e-13 * largest(crowd.f));

@@ -61,7 +61,7 @@ struct RigidChain {
       const Vec3 n = unit(direction), t = unit(cross(n, {0.3, 0.5, -0.8}));
       const int k = static_cast<int>(start.size());
       start.push_back(start.back() + (2.0 * r - normal.equilibrium_overlap()) * n);
-      list.add(k - 1, k, 0, constants, loaded(n, t));
+      list.add(k - 1, k, 0, {constants, {}}, loaded(n, t));
     }
     for (auto *array : {&x, &v, &omega, &f, &torque}) array->assign(3 * start.size(), 0.0);
   }
@@ -91,8 +91,8 @@ struct RigidChain {
     }
     std::fill(f.begin(), f.end(), 0.0);
     std::fill(torque.begin(), torque.end(), 0.0);
-    kernel(list, {x.data(), v.data(), omega.data(), f.data(), torque.data()}, {dt, 0.0, 0.0},
-           nullptr);
+    run_kernel(kernel, false, list, static_cast<int>(x.size() / 3), x.data(), v.data(),
+               omega.data(), f.data(), torque.data(), {dt, 0.0, 0.0}, nullptr);
   }
 };
 

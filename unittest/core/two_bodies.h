@@ -14,6 +14,22 @@ namespace apf_test {
 
 using apf::Vec3;
 
+// The kernel on plain arrays [bodies][3]; forces and torques are added to.
+inline int run_kernel(apf::ContactKernel kernel, bool planar, apf::ContactList &list, int n,
+                      const double *x, const double *v, const double *omega, double *f,
+                      double *torque, apf::ContactTimes times, apf::ContactParts *parts)
+{
+  apf::Bodies bodies(planar);
+  bodies.resize(n);
+  for (int b = 0; b < n; b++) {
+    bodies.place(b, x + 3 * b);
+    bodies.set_motion(b, v + 3 * b, omega + 3 * b);
+  }
+  const int ended = kernel(list, bodies, times, parts);
+  for (int b = 0; b < n; b++) bodies.add_load_to(b, f + 3 * b, torque + 3 * b);
+  return ended;
+}
+
 // A glass-like material that is sticky enough for all parts of the law to matter: a0/R = 0.12.
 inline apf::ContactModel sticky_model()
 {
@@ -112,7 +128,10 @@ struct TwoBodies {
     touch();
   }
 
-  void touch(const apf::ContactHistory &history = {}) { list.add(0, 1, 0, constants, history); }
+  void touch(const apf::ContactHistory &history = {})
+  {
+    list.add(0, 1, 0, {constants, {}}, history);
+  }
 
   // Sees the same contact from the other body.
   void swap()
@@ -122,7 +141,7 @@ struct TwoBodies {
     std::swap(bodies.radius_i, bodies.radius_j);
     constants = apf::ContactConstants::make(model, bodies);
     list.clear();
-    list.add(forwards, !forwards, 0, constants, history);
+    list.add(forwards, !forwards, 0, {constants, {}}, history);
   }
 
   // The kernel alone; velocities are older than positions by `behind`.
@@ -131,7 +150,8 @@ struct TwoBodies {
     if (wall) std::copy(x + 1, x + 3, x + 4);
     std::fill(f, f + 6, 0.0);
     std::fill(torque, torque + 6, 0.0);
-    if (list.size()) kernel(list, {x, v, omega, f, torque}, {dt, behind, dt}, &parts);
+    if (list.size())
+      run_kernel(kernel, planar, list, 2, x, v, omega, f, torque, {dt, behind, dt}, &parts);
   }
 
   bool ended() const { return list.size() == 0 || list.ended(0); }

@@ -1,0 +1,170 @@
+// The bodies that contacts join: one row of numbers per body, position, velocity, spin and the load
+// that contacts put on it side by side. A contact touches one cache line of each of its two bodies in
+// the plane and two in space; both laws' rows are whole numbers of vector registers.
+
+#ifndef APF_BODIES_H
+#define APF_BODIES_H
+
+#include <cstddef>
+#include <vector>
+
+namespace apf {
+
+// in the xy plane: spins and torques about z
+struct alignas(64) PlaneRow {
+  static constexpr int dim = 2, spin_dim = 1;
+  double x[2];         // position                                             [length]
+  double v[2];         // velocity                                             [length/time]
+  double f[2];         // force of the contacts                                [force]
+  double torque[1];    // torque of the contacts                               [force length]
+  double omega[1];     // angular velocity                                     [1/time]
+};
+
+struct alignas(128) SpaceRow {
+  static constexpr int dim = 3, spin_dim = 3;
+  double x[3];
+  double v[3];
+  double omega[3];
+  double f[3];
+  double torque[3];
+  double unused;
+};
+
+class Bodies {
+ public:
+  explicit Bodies(bool planar = false) : flat(planar) {}
+
+  bool planar() const { return flat; }
+  int size() const { return static_cast<int>(flat ? plane.size() : space.size()); }
+
+  // new rows are zero
+  void resize(int n)
+  {
+    if (flat)
+      plane.resize(n);
+    else
+      space.resize(n);
+  }
+
+  // rows as the planar or the spatial code sees them
+  template <class Row> Row *rows();
+  template <class Row> const Row *rows() const { return const_cast<Bodies *>(this)->rows<Row>(); }
+
+  // x, v, omega are [3], also in the plane
+  void place(int i, const double *x)
+  {
+    with_row(i, [x](auto &row) {
+      copy(x, row.x);
+    });
+  }
+  void set_motion(int i, const double *v, const double *omega)
+  {
+    with_row(i, [v, omega](auto &row) {
+      copy(v, row.v);
+      copy(omega + 3 - row.spin_dim, row.omega);
+    });
+  }
+  void position(int i, double *x) const
+  {
+    with_row(i, [x](const auto &row) {
+      x[2] = 0.0;
+      copy(row.x, x);
+    });
+  }
+  void motion(int i, double *v, double *omega) const
+  {
+    with_row(i, [v, omega](const auto &row) {
+      v[2] = omega[0] = omega[1] = 0.0;
+      copy(row.v, v);
+      copy(row.omega, omega + 3 - row.spin_dim);
+    });
+  }
+
+  void clear_loads(int first, int last)
+  {
+    for (int i = first; i < last; i++)
+      with_row(i, [](auto &row) {
+        for (double &c : row.f) c = 0.0;
+        for (double &c : row.torque) c = 0.0;
+      });
+  }
+  // adds to f[3] and torque[3] the load of a row, or to the row a load f[3], torque[3]
+  void add_load_to(int i, double *f, double *torque) const
+  {
+    with_row(i, [f, torque](const auto &row) {
+      add(row.f, f);
+      add(row.torque, torque + 3 - row.spin_dim);
+    });
+  }
+  void add_load(int i, const double *f, const double *torque)
+  {
+    with_row(i, [f, torque](auto &row) {
+      add(f, row.f);
+      add(torque + 3 - row.spin_dim, row.torque);
+    });
+  }
+
+  // row `to` becomes what row i of `from` is; both planar, or none
+  void copy_row(const Bodies &from, int i, int to)
+  {
+    if (flat)
+      plane[to] = from.plane[i];
+    else
+      space[to] = from.space[i];
+  }
+
+  double memory_usage() const    // [bytes]
+  {
+    return plane.capacity() * sizeof(PlaneRow) + space.capacity() * sizeof(SpaceRow);
+  }
+
+ private:
+  bool flat;
+  std::vector<PlaneRow> plane;    // one of the two is used
+  std::vector<SpaceRow> space;
+
+  template <class Action> void with_row(int i, Action action)
+  {
+    if (flat)
+      action(plane[i]);
+    else
+      action(space[i]);
+  }
+  template <class Action> void with_row(int i, Action action) const
+  {
+    if (flat)
+      action(plane[i]);
+    else
+      action(space[i]);
+  }
+
+  template <size_t n> static void copy(const double *from, double (&to)[n])
+  {
+    for (size_t c = 0; c < n; c++) to[c] = from[c];
+  }
+  template <size_t n> static void copy(const double (&from)[n], double *to)
+  {
+    for (size_t c = 0; c < n; c++) to[c] = from[c];
+  }
+  template <size_t n> static void add(const double *from, double (&to)[n])
+  {
+    for (size_t c = 0; c < n; c++) to[c] += from[c];
+  }
+  template <size_t n> static void add(const double (&from)[n], double *to)
+  {
+    for (size_t c = 0; c < n; c++) to[c] += from[c];
+  }
+};
+
+template <> inline PlaneRow *Bodies::rows<PlaneRow>()
+{
+  return plane.data();
+}
+template <> inline SpaceRow *Bodies::rows<SpaceRow>()
+{
+  return space.data();
+}
+
+}    // namespace apf
+
+#endif

@@ -1,0 +1,64 @@
+// Which bodies may touch within the next particle step. A pair found only when it overlaps, at the end
+// of a step, would start with an overlap that no impact brings about, and fly apart too fast.
+//
+//   gap < reach (closing speed + extra) + margin
+//
+// decides for a pair by itself. A body that touches or approaches another ("active") may be struck in
+// the course of the step and then move as fast as any of these; for its pairs the largest relative
+// speed of all of them stands in for the closing speed.
+
+#ifndef APF_LOOK_AHEAD_H
+#define APF_LOOK_AHEAD_H
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace apf {
+
+enum Activity : char { FREE = 0, ACTIVE = 1, NEAR_ACTIVE = 2 };
+
+struct LookAhead {
+  double reach = 0.0;      // safety factor x particle step                            [time]
+  double extra = 0.0;      // speed that forces can add to an approach               [velocity]
+  double margin = 0.0;     // added to every distance                                  [length]
+  double fastest = 0.0;    // largest relative speed of bodies that touch or approach [velocity]
+  double limit = 0.0;      // no relative speed of two bodies is larger                [velocity]
+  std::vector<char> activity;    // Activity of each body
+
+  double distance(double speed) const { return reach * (std::max(speed, 0.0) + extra) + margin; }
+
+  void meet(int i, double relative_speed)
+  {
+    activity[i] = ACTIVE;
+    fastest = std::max(fastest, relative_speed);
+  }
+  void come_near(int i)
+  {
+    if (activity[i] == FREE) activity[i] = NEAR_ACTIVE;
+  }
+};
+
+// Two bodies that see each other along a line.
+struct Approach {
+  double gap;               // between the surfaces                                  [length]
+  double closing_speed;     // < 0 when they part                                    [velocity]
+  double relative_speed;    // of the centres, >= 0                                  [velocity]
+
+  template <class Row> static Approach of(const Row &i, const Row &j, double radius_sum)
+  {
+    double d2 = 0.0, dv = 0.0, v2 = 0.0;
+    for (int c = 0; c < Row::dim; c++) {
+      const double d = j.x[c] - i.x[c], v = i.v[c] - j.v[c];
+      d2 += d * d;
+      dv += d * v;
+      v2 += v * v;
+    }
+    const double distance = std::sqrt(d2);
+    return {distance - radius_sum, dv / distance, std::sqrt(v2)};
+  }
+};
+
+}    // namespace apf
+
+#endif
