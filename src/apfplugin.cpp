@@ -10,6 +10,7 @@
 #include "fix_contact_history.h"
 #include "fix_flow_field.h"
 #include "fix_flow_force.h"
+#include "fix_nve_sphere_mts.h"
 #include "fix_wall_levelset.h"
 #include "pair_granular_adhesive.h"
 
@@ -74,6 +75,9 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
 
   creates_with_words(&create_with_words<FixFlowForce>);
   add("fix", "flow/force", "forces of the fluid on particles, APF " APF_VERSION);
+
+  creates_with_words(&create_with_words<FixNVESphereMTS>);
+  add("fix", "nve/sphere/mts", "integrates spheres, contacts in sub-steps, APF " APF_VERSION);
 
   creates_with_words(&create_with_words<ComputeAggregateContact>);
   add("compute", "aggregate/contact", "aggregates of touching particles, APF " APF_VERSION);

@@ -50,7 +50,7 @@ void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode
       FLERR,
       "{}: timestep {:.4g} is too large for the {} mode of a contact, omega dt = {:.3g}; "
       "above {} dense packings are unstable; {:.3g} gives {}",
-      who, dt, mode.name, kappa, apf::largest_stable_kappa, apf::accurate_kappa / mode.frequency,
+      who, dt, mode.name(), kappa, apf::largest_stable_kappa, apf::accurate_kappa / mode.frequency,
       apf::accurate_kappa);
 }
 

@@ -96,6 +96,25 @@ void FixContactHistory::sub_step(const apf::ContactTimes &times)
   pair->sub_step(times);
 }
 
+double FixContactHistory::contacts_here() const
+{
+  const auto &contacts = pair->closed_contacts();
+  if (force->newton_pair) return contacts.size();
+  double n = 0.0;
+  for (const int j : contacts.j) n += j < atom->nlocal ? 1.0 : 0.5;
+  return n;
+}
+
+double FixContactHistory::longest_neck() const
+{
+  return pair->longest_neck();
+}
+
+apf::StiffestMode FixContactHistory::stiffest_possible() const
+{
+  return pair->stiffest_possible();
+}
+
 /* ----------------------------------------------------------------------
    contacts of each atom, which share its mass between their dashpots; counted from what is closed
    now, so that neither ranks nor rebuilds of the neighbour list matter

@@ -34,6 +34,10 @@ class FixContactHistory : public FixContacts {
   void find_near(apf::LookAhead &) override;
   void find_stiffest(apf::Stiffest &) override;
   void sub_step(const apf::ContactTimes &) override;
+  double contacts_here() const override;
+  double longest_neck() const;
+  apf::StiffestMode stiffest_possible() const;
+  using FixContacts::note_touch;
 
   void serve(class PairGranularAdhesive *style) { pair = style; }
 

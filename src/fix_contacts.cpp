@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "fix_nve_sphere_mts.h"
 #include "modify.h"
 #include "respa.h"
 #include "update.h"
@@ -49,8 +50,11 @@ int FixContacts::setmask()
 void FixContacts::init()
 {
   keepers.clear();
-  for (const auto &fix : modify->get_fix_list())
+  sub_stepper = nullptr;
+  for (const auto &fix : modify->get_fix_list()) {
     if (auto *keeper = dynamic_cast<FixContacts *>(fix)) keepers.push_back(keeper);
+    if (auto *stepper = dynamic_cast<FixNVESphereMTS *>(fix)) sub_stepper = stepper;
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -87,8 +91,16 @@ apf::ContactTimes FixContacts::last_times() const
   return {0.0, taken.behind, taken.step};
 }
 
+void FixContacts::note_touch(double overlap, double closing_speed)
+{
+  constexpr double rounding = 1.1;    // and the turning of the pair within a step
+  if (!sub_stepper || update->setupflag) return;
+  if (overlap > rounding * std::max(closing_speed, 0.0) * sub_stepper->collision_step()) late++;
+}
+
 double FixContacts::step_of_level() const
 {
+  if (sub_stepper) return sub_stepper->collision_step();
   const auto *respa = dynamic_cast<Respa *>(update->integrate);
   return respa ? respa->step[level()] : update->dt;
 }

@@ -52,6 +52,8 @@ class FixContacts : public Fix {
   // forces of all contacts onto the rows of the particles, which stand half a sub-step before the
   // positions; contacts are made and ended
   virtual void sub_step(const apf::ContactTimes &) = 0;
+  virtual double contacts_here() const = 0;      // of this rank; shared ones count by halves
+  bigint late_so_far() const { return late; }    // first seen deeper than a step can bring them
 
  protected:
   ContactStore store;
@@ -78,10 +80,15 @@ class FixContacts : public Fix {
   apf::ContactTimes last_times() const;    // to look at the same forces again
   double step_of_level() const;            // time between two force computations
 
+  // takes note of a first touch, of the overlap that was found at that closing speed
+  void note_touch(double overlap, double closing_speed);
+
   std::vector<FixContacts *> keepers;    // all fixes that own contacts, this one included
   bigint changes = 0;                    // contacts made and ended so far
 
  private:
+  const class FixNVESphereMTS *sub_stepper = nullptr;    // integrates contacts, or none does
+  bigint late = 0;
   bool registered = false;
   bool stored = true;           // no forces since contacts were stored
   apf::ContactTimes taken{};    // of the last forces

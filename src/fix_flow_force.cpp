@@ -5,6 +5,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_flow_field.h"
+#include "fix_nve_sphere_mts.h"
 #include "force.h"
 #include "math_const.h"
 #include "memory.h"
@@ -170,6 +171,10 @@ void FixFlowForce::init()
                "(lj, si, cgs, micro, nano), got {}",
                update->unit_style);
 
+  sub_stepper = nullptr;
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *stepper = dynamic_cast<FixNVESphereMTS *>(fix)) sub_stepper = stepper;
+
   if (utils::strmatch(update->integrate_style, "^respa")) {
     ilevel_respa = dynamic_cast<Respa *>(update->integrate)->nlevels - 1;
     if (respa_level >= 0) ilevel_respa = std::min(respa_level, ilevel_respa);
@@ -290,13 +295,16 @@ template <class Law, bool SPIN> void FixFlowForce::add_forces()
   const int nlocal = atom->nlocal;
   const bool planar = domain->dimension == 2;
 
-  apf::FluidStep<Law> fluid(field->density, field->viscosity, step());
+  apf::FluidStep<Law> whole(field->density, field->viscosity, step());
+  apf::FluidStep<Law> sub(field->density, field->viscosity,
+                          sub_stepper ? share * sub_stepper->collision_step() : step());
   apf::Vec3 drag_sum{}, weight_sum{};
 
   for (int i = 0; i < nlocal; i++) {
     double *out = array_atom[i];
     std::fill_n(out, 6, 0.0);
     if (!(mask[i] & groupbit)) continue;
+    auto &fluid = sub_stepper && sub_stepper->step_of(i) < update->dt ? sub : whole;
     fluid.set_sphere(2.0 * radius[i], rmass[i]);
 
     const apf::Vec3 weight = fluid.gravity(gravity);
@@ -320,6 +328,26 @@ template <class Law, bool SPIN> void FixFlowForce::add_forces()
   add(total, drag_sum);
   add(total + 3, weight_sum);
   summed = false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowForce::relax(int i, apf::Slow &slow) const
+{
+  if (!(atom->mask[i] & groupbit)) return;
+  const double d = 2.0 * atom->radius[i], m = atom->rmass[i];
+  const apf::Vec3 u = velocity[i], slip = vector(atom->v[i]) - u;
+  double rate = apf::stokes_resistance(field->viscosity, d) / m;
+  if (drag == Drag::SCHILLER)
+    rate *= apf::SchillerNaumannDrag::factor(
+        apf::particle_reynolds(std::sqrt(norm2(slip)), d, field->density, field->viscosity));
+  const double *last = array_atom[i];
+  add(slow.a, rate * u - slow.inv_mass * vector(last));
+  slow.rate += rate;
+  if (!torque) return;
+  const double spin_rate = apf::stokes_spin_resistance(field->viscosity, d) * slow.inv_inertia;
+  add(slow.alpha, 0.5 * spin_rate * vorticity[i] - slow.inv_inertia * vector(last + 3));
+  slow.spin_rate += spin_rate;
 }
 
 /* ----------------------------------------------------------------------

@@ -12,6 +12,7 @@ FixStyle(flow/force,FixFlowForce);
 #include "fix.h"
 
 #include "contact/vector.h"
+#include "timestep/sub_step.h"
 
 #include <string>
 #include <vector>
@@ -30,6 +31,10 @@ class FixFlowForce : public Fix {
   double compute_vector(int) override;
   double memory_usage() override;
 
+  // Takes the last drag and torque on local atom i out of its acceleration, and puts the rates and
+  // velocities of relaxation there instead.
+  void relax(int i, apf::Slow &) const;
+
  private:
   enum class Drag { NONE, STOKES, SCHILLER };
 
@@ -40,6 +45,7 @@ class FixFlowForce : public Fix {
   apf::Vec3 gravity;    // acceleration, without buoyancy               [length/time^2]
 
   int ilevel_respa;
+  const class FixNVESphereMTS *sub_stepper = nullptr;
   double share;    // part of a step for which the forces act: half of it at setup
   int nmax;
   std::vector<apf::Vec3> velocity, vorticity;    // of the fluid at the particles

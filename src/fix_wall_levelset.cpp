@@ -193,6 +193,7 @@ void FixWallLevelset::touch(int i, int surface, double distance)
                "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
                "inside, or use a smaller timestep",
                command, id, atom->tag[i], -distance);
+  note_touch(atom->radius[i] - distance, closing_speed(i, surface));
   close(i, surface, apf::ContactHistory());
   captured += 1.0;
 }
@@ -350,13 +351,9 @@ void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
       const bool closed = touched[i] >> s & 1;
       const double gap = surfaces[s].distance(atom->x[i]) - atom->radius[i];
       if (!closed && gap > farthest) continue;
-      double v[3], omega[3], x[3], foot[3], n[3];
-      bodies.motion(i, v, omega);
-      bodies.position(i, x);
-      surfaces[s].foot(x, foot);
-      MathExtra::sub3(foot, x, n);
-      MathExtra::norm3(n);
-      if (closed || gap <= ahead.distance(MathExtra::dot3(v, n))) {
+      if (closed || gap <= ahead.distance(closing_speed(i, s))) {
+        double v[3], omega[3];
+        bodies.motion(i, v, omega);
         ahead.meet(i, MathExtra::len3(v));
         if (!closed) near.push_back({i, s});
       } else {
@@ -364,6 +361,17 @@ void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
       }
     }
   }
+}
+
+// of a particle towards the wall
+double FixWallLevelset::closing_speed(int i, int surface)
+{
+  double v[3], omega[3], x[3], foot[3], n[3];
+  particles().motion(i, v, omega);
+  particles().position(i, x);
+  surfaces[surface].foot(x, foot);
+  MathExtra::sub3(foot, x, n);
+  return MathExtra::dot3(v, n) / MathExtra::len3(n);
 }
 
 void FixWallLevelset::find_near(apf::LookAhead &ahead)

@@ -38,6 +38,7 @@ class FixWallLevelset : public FixContacts {
   void find_approaching(apf::LookAhead &) override;
   void find_near(apf::LookAhead &) override;
   void sub_step(const apf::ContactTimes &) override;
+  double contacts_here() const override { return contacts.size(); }
   void find_stiffest(apf::Stiffest &) override;
 
  protected:
@@ -84,6 +85,7 @@ class FixWallLevelset : public FixContacts {
   void find_again();
   void detect();
   void touch(int i, int surface, double distance);
+  double closing_speed(int i, int surface);
   void close(int i, int surface, const apf::ContactHistory &);
   apf::ContactBodies bodies_of(int i, int surface) const;
   double crowding(int i) const;

@@ -96,10 +96,13 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
 
 void PairGranularAdhesive::detect(bool all)
 {
-  auto touches = [this](int k) {
-    close(k, apf::ContactHistory());
-  };
   auto detect_rows = [&](const auto *rows) {
+    auto touches = [&](int k) {
+      const auto approach =
+          apf::Approach::of(rows[candidates.i[k]], rows[candidates.j[k]], candidates.touch[k]);
+      store->note_touch(-approach.gap, approach.closing_speed);
+      close(k, apf::ContactHistory());
+    };
     if (all)
       candidates.detect(rows, touches);
     else

@@ -23,13 +23,17 @@ namespace apf {
 constexpr double largest_stable_kappa = 0.8;
 constexpr double accurate_kappa = 0.3;
 
+enum ContactMode { NONE, NORMAL, TANGENTIAL, TWISTING, ROLLING };
+constexpr const char *mode_names[] = {"no", "normal", "tangential", "twisting", "rolling"};
+
 struct StiffestMode {
   double frequency = 0.0;    // at rest                                                [1/time]
   double overlap = 1.0;      // at rest                                                [length]
   double least = 0.0;        // overlap below which stiffness does not fall: at rest, 0 for Hertz
   double impact = 0.0;       // an impact at the speed v compresses by impact v^(4/5) (Hertz)
-  const char *name = "none";
+  ContactMode mode = NONE;
 
+  const char *name() const { return mode_names[mode]; }
   bool operator<(const StiffestMode &other) const { return frequency < other.frequency; }
 };
 
@@ -38,7 +42,7 @@ struct StiffestMode {
 struct Stiffest {
   double v45 = 0.0;           // v^(4/5)
   double frequency2 = 0.0;    // frequency squared                                   [1/time^2]
-  const char *name = "none";
+  ContactMode mode = NONE;
 
   void include(const StiffestMode &mode, double overlap)
   {
@@ -46,7 +50,7 @@ struct Stiffest {
     const double f2 = mode.frequency * mode.frequency * std::sqrt(deepest / mode.overlap);
     if (f2 <= frequency2) return;
     frequency2 = f2;
-    name = mode.name;
+    this->mode = mode.mode;
   }
 };
 
@@ -68,11 +72,11 @@ inline StiffestMode stiffest_mode(const ContactModel &model, const ContactBodies
   const double impact = std::pow(15.0 * bodies.m / (16.0 * E * std::sqrt(bodies.R)), 0.4);
 
   StiffestMode worst;
-  for (const auto &[frequency, name] : {std::pair(std::sqrt(kn / bodies.m), "normal"),
-                                        std::pair(std::sqrt(3.5 * kt / bodies.m), "tangential"),
-                                        std::pair(std::sqrt(kq / bodies.I), "twisting"),
-                                        std::pair(std::sqrt(kr / bodies.I), "rolling")})
-    worst = std::max(worst, StiffestMode{frequency, overlap, least, impact, name});
+  for (const auto &[frequency, mode] : {std::pair(std::sqrt(kn / bodies.m), NORMAL),
+                                        std::pair(std::sqrt(3.5 * kt / bodies.m), TANGENTIAL),
+                                        std::pair(std::sqrt(kq / bodies.I), TWISTING),
+                                        std::pair(std::sqrt(kr / bodies.I), ROLLING)})
+    worst = std::max(worst, StiffestMode{frequency, overlap, least, impact, mode});
   return worst;
 }
 

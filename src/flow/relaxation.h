@@ -18,7 +18,8 @@ namespace apf {
 // phi(z), mean of exp(-t) over 0 < t < z; z >= 0
 inline double mean_decay(double z)
 {
-  return z > 0.0 ? -std::expm1(-z) / z : 1.0;
+  if (z < 1.0e-3) return 1.0 - z * (1.0 / 2.0 - z * (1.0 / 6.0 - z / 24.0));    // to 1e-14
+  return -std::expm1(-z) / z;
 }
 
 // Mean resistance over the step, phi = mean_decay(h k/m); positive along -slip.

@@ -1,11 +1,11 @@
-// Which bodies may touch within the next particle step. A pair found only when it overlaps, at the end
-// of a step, would start with an overlap that no impact brings about, and fly apart too fast.
+// Which bodies may touch within the next particle step. A pair found only when it overlaps, at the
+// end of a step, would start with an overlap that no impact brings about, and fly apart too fast.
 //
 //   gap < reach (closing speed + extra) + margin
 //
-// decides for a pair by itself. A body that touches or approaches another ("active") may be struck in
-// the course of the step and then move as fast as any of these; for its pairs the largest relative
-// speed of all of them stands in for the closing speed.
+// decides for a pair by itself. A body that touches or approaches another ("active") may be struck
+// in the course of the step and then move as fast as any of these; for its pairs the largest
+// relative speed of all of them stands in for the closing speed.
 
 #ifndef APF_LOOK_AHEAD_H
 #define APF_LOOK_AHEAD_H
@@ -25,17 +25,27 @@ struct LookAhead {
   double fastest = 0.0;    // largest relative speed of bodies that touch or approach [velocity]
   double limit = 0.0;      // no relative speed of two bodies is larger                [velocity]
   std::vector<char> activity;    // Activity of each body
+  std::vector<char> used;        // bodies that a pair here has made active
+
+  void begin(int bodies)
+  {
+    activity.assign(bodies, FREE);
+    used.assign(bodies, 0);
+    fastest = 0.0;
+  }
 
   double distance(double speed) const { return reach * (std::max(speed, 0.0) + extra) + margin; }
 
   void meet(int i, double relative_speed)
   {
     activity[i] = ACTIVE;
+    used[i] = 1;
     fastest = std::max(fastest, relative_speed);
   }
   void come_near(int i)
   {
     if (activity[i] == FREE) activity[i] = NEAR_ACTIVE;
+    used[i] = 1;
   }
 };
 

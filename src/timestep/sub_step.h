@@ -1,11 +1,11 @@
 // One body's part in the sub-steps of a particle step: leapfrog under the contact forces, which are
 // new in each sub-step, beside slow forces and the fluid's resistance, which are given for the whole
-// step. Resistance relaxes the velocity towards the fluid's, exactly for any length of the sub-step
-// (flow/relaxation.h); what the fluid does to a body that a contact holds is then right as well.
+// step. Resistance relaxes the velocity exactly for any length of the sub-step (flow/relaxation.h), so
+// what the fluid does to a body that a contact holds is right as well.
 //
-//   dv/dt = f/m + a - rate (v - u)
+//   dv/dt = f/m + a - rate v          a: slow forces and rate x velocity of the fluid
 //
-// Slow forces act evenly over the sub-steps. Given as one kick at each end of the step, as r-RESPA
+// Slow forces act evenly over the sub-steps. Given as a kick at each end of the step, as r-RESPA
 // does it, they would shake contacts with an amplitude that grows with the particle step, and
 // mobilise friction that the same force at rest does not.
 
@@ -17,35 +17,32 @@
 
 namespace apf {
 
-// What acts on a body through a particle step, besides contacts. A held body has no inverse inertia
-// and no acceleration.
+// What acts on a body through a particle step besides contacts. A body without inverse inertia keeps
+// its velocity.
 struct Slow {
-  double inv_mass = 0.0, inv_inertia = 0.0;
-  double a[3] = {0.0, 0.0, 0.0};         // acceleration by slow forces     [velocity/time]
-  double alpha[3] = {0.0, 0.0, 0.0};     // angular acceleration            [1/time^2]
-  double rate = 0.0, spin_rate = 0.0;    // of relaxation                   [1/time]
-  double u[3] = {0.0, 0.0, 0.0};         // velocity it relaxes to          [velocity]
-  double spin[3] = {0.0, 0.0, 0.0};      // angular velocity, likewise      [1/time]
+  double inv_mass = 0.0, inv_inertia = 0.0;    // [1/mass], [1/(mass length^2)]
+  double a[3] = {0.0, 0.0, 0.0};               // acceleration                 [velocity/time]
+  double alpha[3] = {0.0, 0.0, 0.0};           // angular acceleration         [1/time^2]
+  double rate = 0.0, spin_rate = 0.0;          // of relaxation                [1/time]
 };
 
-// The change of velocities in one kick: v += gain f + push - fade v, from time h.
+// The change of velocities in one kick: v += gain f + push - fade v.
 template <class Row> struct Kick {
   double gain, fade, push[Row::dim];
   double spin_gain, spin_fade, spin_push[Row::spin_dim];
 
+  // the kick of a time h
   static Kick of(const Slow &s, double h)
   {
     Kick k;
     const double t = h * mean_decay(h * s.rate), t_spin = h * mean_decay(h * s.spin_rate);
     k.gain = t * s.inv_mass;
     k.fade = t * s.rate;
-    for (int c = 0; c < Row::dim; c++) k.push[c] = t * (s.a[c] + s.rate * s.u[c]);
     k.spin_gain = t_spin * s.inv_inertia;
     k.spin_fade = t_spin * s.spin_rate;
-    for (int c = 0; c < Row::spin_dim; c++) {
-      const int axis = c + 3 - Row::spin_dim;
-      k.spin_push[c] = t_spin * (s.alpha[axis] + s.spin_rate * s.spin[axis]);
-    }
+    for (int c = 0; c < Row::dim; c++) k.push[c] = t * s.a[c];
+    for (int c = 0; c < Row::spin_dim; c++)
+      k.spin_push[c] = t_spin * s.alpha[c + 3 - Row::spin_dim];
     return k;
   }
 

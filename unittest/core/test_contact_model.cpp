@@ -134,5 +134,5 @@ TEST(Stiffness, of_the_report_channel)
   EXPECT_NEAR(normal * dt, 0.12142, 0.0001);
   model.mu = 0.3;
   EXPECT_NEAR(stiffest_mode(model, bodies).frequency / normal, 2.19, 0.01);
-  EXPECT_STREQ(stiffest_mode(model, bodies).name, "tangential");
+  EXPECT_STREQ(stiffest_mode(model, bodies).name(), "tangential");
 }

@@ -1,0 +1,116 @@
+// Time integration of spheres with contacts sub-stepped.
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(nve/sphere/mts,FixNVESphereMTS);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_NVE_SPHERE_MTS_H
+#define LMP_FIX_NVE_SPHERE_MTS_H
+
+#include "fix.h"
+
+#include "ghost_exchange.h"
+#include "timestep/look_ahead.h"
+#include "timestep/sub_step.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+// LAMMPS's timestep is the particle step. Particles that touch, or may touch within it, take part in
+// collision steps, all inside initial_integrate(); the forces of the last one are those that LAMMPS
+// computes as ever, so that other commands see contacts, forces and velocities as of the step's end.
+
+class FixNVESphereMTS : public Fix {
+ public:
+  FixNVESphereMTS(class LAMMPS *, int, char **);
+  ~FixNVESphereMTS() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void setup_post_neighbor() override { post_neighbor(); }
+  void post_neighbor() override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void post_run() override;
+  double compute_vector(int) override;
+  void *extract(const char *, int &) override;
+  double memory_usage() override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
+
+  // time between two force computations of contacts, and of the kicks that atom i gets
+  double collision_step() const;
+  double step_of(int i) const;
+  bool looks_ahead() const { return lookahead; }
+
+ private:
+  // as the script has it
+  int fixed_steps = 0;    // collision steps of a particle step; 0 = from the stiffest mode
+  double kappa;           // largest omega x collision step                               [-]
+  int fluid_every = 1;    // particle steps of a fluid step
+  bool lookahead = true;
+
+  int n_collision = 1;           // collision steps of the present particle step
+  std::vector<char> activity;    // of local atoms: was sub-stepped in the last particle step
+  apf::LookAhead ahead;
+  GhostExchange exchange;
+  class FixContactHistory *history = nullptr;
+  std::vector<class FixContacts *> keepers;
+  std::vector<class FixFlowForce *> fluids;
+  int freeze_group_bit = 0;
+
+  std::vector<double> x_built;    // positions when the neighbour list was built, [atoms][3]
+  bool owners_known = false;
+  std::vector<int> owner_rank, owner_row;    // of local and ghost atoms
+  enum class Message { OWNERS, ACTIVITY } message = Message::OWNERS;
+
+  // global maxima at the start of a particle step
+  struct Extremes {
+    double spread;          // of velocities: no two differ by more                  [velocity]
+    double speed;           //                                                       [velocity]
+    double acceleration;    // of particles that touch nothing                  [velocity/time]
+    double displacement;    // since the neighbour list was built                      [length]
+  };
+
+  struct Totals {    // of a run, for the summary
+    bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0;
+    int fewest = 0, most = 0;
+    double kappa = 0.0;
+    const char *mode = "none";
+  } run_totals;
+  bigint all_collision_steps = 0, late_before_restart = 0;
+  bigint active_now = 0;
+  const char *limiting_mode = "none";
+  double largest_frequency = 0.0;
+
+  Extremes find_extremes() const;
+  void demand_neighbours(const Extremes &);
+  void look_ahead();
+  void share_activity();
+  void know_owners();
+  void choose_steps();
+  apf::Slow slow_of(int i, const double *contact_force, const double *contact_torque) const;
+  void kick_atom(int i, double time);
+  template <class Row> void sub_step_active();
+  void drift_free();
+  bigint late_contacts() const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

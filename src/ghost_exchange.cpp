@@ -1,0 +1,227 @@
+#include "ghost_exchange.h"
+
+#include "domain.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+constexpr int tag_rows = 1, tag_forward = 2, tag_reverse = 3;
+
+template <class Row> constexpr int motion_size = 2 * Row::dim + Row::spin_dim;
+template <class Row> constexpr int load_size = Row::dim + Row::spin_dim;
+
+template <class Row> double *pack_motion(const Row &row, double *buf)
+{
+  for (const double c : row.x) *buf++ = c;
+  for (const double c : row.v) *buf++ = c;
+  for (const double c : row.omega) *buf++ = c;
+  return buf;
+}
+
+// The box lengths that lie between an atom and its image.
+void image_shift(const Domain *domain, const double *atom, const double *image, double *shift)
+{
+  double d[3];
+  for (int c = 0; c < 3; c++) d[c] = image[c] - atom[c];
+  const double nz = std::round(d[2] / domain->zprd);
+  const double ny = std::round((d[1] - nz * domain->yz) / domain->yprd);
+  const double nx = std::round((d[0] - nz * domain->xz - ny * domain->xy) / domain->xprd);
+  shift[0] = nx * domain->xprd + ny * domain->xy + nz * domain->xz;
+  shift[1] = ny * domain->yprd + nz * domain->yz;
+  shift[2] = nz * domain->zprd;
+}
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+GhostExchange::GhostExchange(MPI_Comm world) : world(world)
+{
+  MPI_Comm_rank(world, &me);
+  MPI_Comm_size(world, &nprocs);
+  self.rank = me;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void GhostExchange::set_owners(int nlocal, std::vector<int> rank, std::vector<int> index)
+{
+  first = nlocal;
+  owner_rank = std::move(rank);
+  owner_row = std::move(index);
+  partners.clear();
+  partner_of_rank.assign(nprocs, -1);
+  if (nprocs == 1) return;
+
+  std::vector<char> has_ghosts(nprocs, 0), has_mine(nprocs);
+  for (const int r : owner_rank) has_ghosts[r] = 1;
+  MPI_Alltoall(has_ghosts.data(), 1, MPI_CHAR, has_mine.data(), 1, MPI_CHAR, world);
+  for (int r = 0; r < nprocs; r++) {
+    if (r == me || !(has_ghosts[r] || has_mine[r])) continue;
+    partner_of_rank[r] = static_cast<int>(partners.size());
+    partners.emplace_back();
+    partners.back().rank = r;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, bool shift_velocity,
+                           const apf::Bodies &bodies, std::vector<char> &wanted)
+{
+  chosen.clear();
+  for (auto *p : {&self}) p->images.clear(), p->sent.clear();
+  for (auto &p : partners) p.images.clear(), p.sent.clear();
+  std::vector<std::vector<int>> asked(partners.size());
+  const int nghost = static_cast<int>(owner_rank.size());
+  for (int g = 0; g < nghost; g++) {
+    if (!used[first + g]) continue;
+    chosen.push_back(first + g);
+    const int r = owner_rank[g];
+    partner(r).images.push_back({first + g, {}, {}});
+    if (r == me)
+      self.sent.push_back(owner_row[g]);
+    else
+      asked[partner_of_rank[r]].push_back(owner_row[g]);
+  }
+
+  requests.resize(partners.size());
+  for (size_t p = 0; p < partners.size(); p++)
+    MPI_Isend(asked[p].data(), static_cast<int>(asked[p].size()), MPI_INT, partners[p].rank,
+              tag_rows, world, &requests[p]);
+  for (auto &p : partners) {
+    MPI_Status status;
+    int n;
+    MPI_Probe(p.rank, tag_rows, world, &status);
+    MPI_Get_count(&status, MPI_INT, &n);
+    p.sent.resize(n);
+    MPI_Recv(p.sent.data(), n, MPI_INT, p.rank, tag_rows, world, MPI_STATUS_IGNORE);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+
+  for (const int i : self.sent) wanted[i] = 1;
+  for (const auto &p : partners)
+    for (const int i : p.sent) wanted[i] = 1;
+
+  // where images stand relative to their owners: six numbers from each owner
+  auto motion = [&](int i, double *buf) {
+    double omega[3];
+    bodies.position(i, buf);
+    bodies.motion(i, buf + 3, omega);
+  };
+  auto compare = [&](Image &image, const double *owner) {
+    double ghost[6];
+    motion(image.ghost, ghost);
+    image_shift(domain, owner, ghost, image.shift);
+    for (int c = 0; c < 3; c++) image.dv[c] = shift_velocity ? ghost[3 + c] - owner[3 + c] : 0.0;
+  };
+  for (auto &p : partners) {
+    p.in.resize(6 * p.images.size());
+    p.out.resize(6 * p.sent.size());
+    for (size_t k = 0; k < p.sent.size(); k++) motion(p.sent[k], &p.out[6 * k]);
+  }
+  requests.clear();
+  for (auto &p : partners) {
+    requests.resize(requests.size() + 2);
+    MPI_Irecv(p.in.data(), static_cast<int>(p.in.size()), MPI_DOUBLE, p.rank, tag_rows, world,
+              &requests.end()[-2]);
+    MPI_Isend(p.out.data(), static_cast<int>(p.out.size()), MPI_DOUBLE, p.rank, tag_rows, world,
+              &requests.end()[-1]);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  for (auto &p : partners)
+    for (size_t k = 0; k < p.images.size(); k++) compare(p.images[k], &p.in[6 * k]);
+  for (size_t k = 0; k < self.images.size(); k++) {
+    double owner[6];
+    motion(self.sent[k], owner);
+    compare(self.images[k], owner);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class Row> void GhostExchange::forward(Row *rows)
+{
+  constexpr int size = motion_size<Row>;
+  requests.clear();
+  for (auto &p : partners) {
+    p.out.resize(size * p.sent.size());
+    p.in.resize(size * p.images.size());
+    double *buf = p.out.data();
+    for (const int i : p.sent) buf = pack_motion(rows[i], buf);
+    for (auto *to : {&p.in, &p.out}) {
+      if (to->empty()) continue;
+      requests.emplace_back();
+      if (to == &p.in)
+        MPI_Irecv(p.in.data(), static_cast<int>(p.in.size()), MPI_DOUBLE, p.rank, tag_forward,
+                  world, &requests.back());
+      else
+        MPI_Isend(p.out.data(), static_cast<int>(p.out.size()), MPI_DOUBLE, p.rank, tag_forward,
+                  world, &requests.back());
+    }
+  }
+  auto place = [rows](const Image &image, const double *buf) {
+    Row &row = rows[image.ghost];
+    for (int c = 0; c < Row::dim; c++) row.x[c] = *buf++ + image.shift[c];
+    for (int c = 0; c < Row::dim; c++) row.v[c] = *buf++ + image.dv[c];
+    for (double &c : row.omega) c = *buf++;
+  };
+  for (size_t k = 0; k < self.images.size(); k++) {
+    double buf[size];
+    pack_motion(rows[self.sent[k]], buf);
+    place(self.images[k], buf);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  for (auto &p : partners)
+    for (size_t k = 0; k < p.images.size(); k++) place(p.images[k], &p.in[size * k]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class Row> void GhostExchange::reverse(Row *rows)
+{
+  constexpr int size = load_size<Row>;
+  auto take = [rows](int ghost, double *buf) {
+    Row &row = rows[ghost];
+    for (double &c : row.f) *buf++ = c, c = 0.0;
+    for (double &c : row.torque) *buf++ = c, c = 0.0;
+  };
+  auto give = [rows](int i, const double *buf) {
+    for (double &c : rows[i].f) c += *buf++;
+    for (double &c : rows[i].torque) c += *buf++;
+  };
+  requests.clear();
+  for (auto &p : partners) {
+    p.out.resize(size * p.images.size());
+    p.in.resize(size * p.sent.size());
+    for (size_t k = 0; k < p.images.size(); k++) take(p.images[k].ghost, &p.out[size * k]);
+    if (!p.in.empty()) {
+      requests.emplace_back();
+      MPI_Irecv(p.in.data(), static_cast<int>(p.in.size()), MPI_DOUBLE, p.rank, tag_reverse, world,
+                &requests.back());
+    }
+    if (!p.out.empty()) {
+      requests.emplace_back();
+      MPI_Isend(p.out.data(), static_cast<int>(p.out.size()), MPI_DOUBLE, p.rank, tag_reverse,
+                world, &requests.back());
+    }
+  }
+  for (size_t k = 0; k < self.images.size(); k++) {
+    double buf[size];
+    take(self.images[k].ghost, buf);
+    give(self.sent[k], buf);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  for (auto &p : partners)
+    for (size_t k = 0; k < p.sent.size(); k++) give(p.sent[k], &p.in[size * k]);
+}
+
+namespace LAMMPS_NS {
+template void GhostExchange::forward(apf::PlaneRow *);
+template void GhostExchange::forward(apf::SpaceRow *);
+template void GhostExchange::reverse(apf::PlaneRow *);
+template void GhostExchange::reverse(apf::SpaceRow *);
+}    // namespace LAMMPS_NS
