@@ -20,9 +20,10 @@ FixStyle(nve/sphere/mts,FixNVESphereMTS);
 
 namespace LAMMPS_NS {
 
-// LAMMPS's timestep is the particle step. Particles that touch, or may touch within it, take part in
-// collision steps, all inside initial_integrate(); the forces of the last one are those that LAMMPS
-// computes as ever, so that other commands see contacts, forces and velocities as of the step's end.
+// LAMMPS's timestep is the particle step. Particles that touch, or may touch within it, take part
+// in collision steps, all inside initial_integrate(); the forces of the last one are those that
+// LAMMPS computes as ever, so that other commands see contacts, forces and velocities as they are
+// at the end of the step.
 
 class FixNVESphereMTS : public Fix {
  public:

@@ -54,8 +54,8 @@ class FixWallLevelset : public FixContacts {
   apf::KernelChoice choice;
   apf::ContactKernel kernel;
 
-  // One contact = one particle at one surface. Rows 2k and 2k+1 of `rows` are a copy of the particle
-  // and its foot point on the wall, a body without radius.
+  // One contact = one particle at one surface. Rows 2k and 2k+1 of `rows` are a copy of the
+  // particle and its foot point on the wall, a body without radius.
   apf::ContactList contacts;
   std::vector<int> surface_of;      // surface of each contact; its atom is contacts.source
   std::vector<unsigned> touched;    // per atom: bit s set if it is in contact with surface s

@@ -1,7 +1,7 @@
 // The bodies as contact forces were last computed with: LAMMPS's atoms in the rows that the kernel
-// reads. Leapfrog steps compute forces with velocities half a step older than the positions. Who looks
-// at contacts later, or goes on from the end of a run or from a restart file, needs these velocities
-// again: those of the atoms have moved on by then.
+// reads. Leapfrog steps compute forces with velocities half a step older than the positions. Who
+// looks at contacts later, or goes on from the end of a run or from a restart file, needs these
+// velocities again: those of the atoms have moved on by then.
 
 #ifndef APF_USED_VELOCITY_H
 #define APF_USED_VELOCITY_H

@@ -1,6 +1,6 @@
 // The bodies that contacts join: one row of numbers per body, position, velocity, spin and the load
-// that contacts put on it side by side. A contact touches one cache line of each of its two bodies in
-// the plane and two in space; both laws' rows are whole numbers of vector registers.
+// that contacts put on it side by side. A contact touches one cache line of each of its two bodies
+// in the plane and two in space; rows are whole numbers of vector registers.
 
 #ifndef APF_BODIES_H
 #define APF_BODIES_H

@@ -1,7 +1,7 @@
 // One body's part in the sub-steps of a particle step: leapfrog under the contact forces, which are
-// new in each sub-step, beside slow forces and the fluid's resistance, which are given for the whole
-// step. Resistance relaxes the velocity exactly for any length of the sub-step (flow/relaxation.h), so
-// what the fluid does to a body that a contact holds is right as well.
+// new in each sub-step, beside slow forces and the fluid's resistance, which are given for the
+// whole step. Resistance relaxes the velocity exactly for any length of the sub-step
+// (flow/relaxation.h), so what the fluid does to a body that a contact holds is right as well.
 //
 //   dv/dt = f/m + a - rate v          a: slow forces and rate x velocity of the fluid
 //
@@ -17,8 +17,8 @@
 
 namespace apf {
 
-// What acts on a body through a particle step besides contacts. A body without inverse inertia keeps
-// its velocity.
+// What acts on a body through a particle step besides contacts. A body without inverse inertia
+// keeps its velocity.
 struct Slow {
   double inv_mass = 0.0, inv_inertia = 0.0;    // [1/mass], [1/(mass length^2)]
   double a[3] = {0.0, 0.0, 0.0};               // acceleration                 [velocity/time]
