@@ -280,6 +280,7 @@ void FixFlowForce::gather()
   const size_t nlocal = atom->nlocal;
   if (velocity.size() < nlocal) velocity.resize(nmax);
   if (torque && vorticity.size() < nlocal) vorticity.resize(nmax);
+  if (sub_stepper && relaxations.size() < nlocal) relaxations.resize(nmax);
   field->sample(atom->nlocal, atom->x, atom->mask, groupbit, velocity.data(),
                 torque ? vorticity.data() : nullptr);
 }
@@ -308,20 +309,32 @@ template <class Law, bool SPIN> void FixFlowForce::add_forces()
     fluid.set_sphere(2.0 * radius[i], rmass[i]);
 
     const apf::Vec3 weight = fluid.gravity(gravity);
-    apf::Vec3 drag = fluid.drag(vector(v[i]) - velocity[i], vector(f[i]) + weight);
+    const apf::Vec3 slip = vector(v[i]) - velocity[i];
+    apf::Vec3 drag = fluid.drag(slip, vector(f[i]) + weight);
     if (planar) drag.z = 0.0;
     add(f[i], drag + weight);
     add(out, drag);
     drag_sum = drag_sum + drag;
     weight_sum = weight_sum + weight;
     if (evflag) tally(i, drag + weight);
+    Relaxation relaxation;
+    if (sub_stepper) {
+      relaxation.rate = fluid.rate(slip);
+      relaxation.a = relaxation.rate * velocity[i] - (1.0 / rmass[i]) * drag;
+    }
 
     if (SPIN) {
       apf::Vec3 moment = fluid.torque(vector(omega[i]) - 0.5 * vorticity[i], vector(t[i]));
       if (planar) moment.x = moment.y = 0.0;
       add(t[i], moment);
       add(out + 3, moment);
+      if (sub_stepper) {
+        relaxation.spin_rate = fluid.spin_rate();
+        const double inv_I = 2.5 / (rmass[i] * radius[i] * radius[i]);
+        relaxation.alpha = (0.5 * relaxation.spin_rate) * vorticity[i] - inv_I * moment;
+      }
     }
+    if (sub_stepper) relaxations[i] = relaxation;
   }
 
   std::fill_n(total, 6, 0.0);
@@ -335,19 +348,11 @@ template <class Law, bool SPIN> void FixFlowForce::add_forces()
 void FixFlowForce::relax(int i, apf::Slow &slow) const
 {
   if (!(atom->mask[i] & groupbit)) return;
-  const double d = 2.0 * atom->radius[i], m = atom->rmass[i];
-  const apf::Vec3 u = velocity[i], slip = vector(atom->v[i]) - u;
-  double rate = apf::stokes_resistance(field->viscosity, d) / m;
-  if (drag == Drag::SCHILLER)
-    rate *= apf::SchillerNaumannDrag::factor(
-        apf::particle_reynolds(std::sqrt(norm2(slip)), d, field->density, field->viscosity));
-  const double *last = array_atom[i];
-  add(slow.a, rate * u - slow.inv_mass * vector(last));
-  slow.rate += rate;
-  if (!torque) return;
-  const double spin_rate = apf::stokes_spin_resistance(field->viscosity, d) * slow.inv_inertia;
-  add(slow.alpha, 0.5 * spin_rate * vorticity[i] - slow.inv_inertia * vector(last + 3));
-  slow.spin_rate += spin_rate;
+  const auto &r = relaxations[i];
+  add(slow.a, r.a);
+  add(slow.alpha, r.alpha);
+  slow.rate += r.rate;
+  slow.spin_rate += r.spin_rate;
 }
 
 /* ----------------------------------------------------------------------

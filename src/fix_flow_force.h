@@ -49,6 +49,11 @@ class FixFlowForce : public Fix {
   double share;    // part of a step for which the forces act: half of it at setup
   int nmax;
   std::vector<apf::Vec3> velocity, vorticity;    // of the fluid at the particles
+  struct Relaxation {                            // what relax() adds
+    apf::Vec3 a{}, alpha{};
+    double rate = 0.0, spin_rate = 0.0;
+  };
+  std::vector<Relaxation> relaxations;    // of local atoms, where contacts are sub-stepped
   double total[6], total_all[6];                 // drag 3, gravity 3, over the group
   bool summed;
 

@@ -189,8 +189,14 @@ void FixNVESphereMTS::initial_integrate(int /*vflag*/)
 // Every particle gets the kick of half the step with which it moved last.
 void FixNVESphereMTS::final_integrate()
 {
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) kick_atom(i, 0.5 * step_of(i));
+  const double half = 0.5 * collision_step();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (activity[i] == apf::FREE)
+      kick_free(i);
+    else
+      kick_atom(i, half);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -406,8 +412,22 @@ void FixNVESphereMTS::drift_free()
   const double dt = update->dt;
   for (int i = 0; i < atom->nlocal; i++) {
     if (ahead.activity[i] != apf::FREE || !(atom->mask[i] & groupbit)) continue;
-    kick_atom(i, 0.5 * dt);
+    if (activity[i] == apf::FREE)
+      kick_free(i);
+    else
+      kick_atom(i, 0.5 * dt);    // f has the resistance of a collision step
     for (int c = 0; c < 3; c++) atom->x[i][c] += dt * atom->v[i][c];
+  }
+}
+
+// Half a step of velocity Verlet; flow/force's resistance is meant for it.
+void FixNVESphereMTS::kick_free(int i)
+{
+  const double r = atom->radius[i], m = atom->rmass[i];
+  const double linear = 0.5 * update->dt / m, angular = 2.5 * linear / (r * r);
+  for (int c = 0; c < 3; c++) {
+    atom->v[i][c] += linear * atom->f[i][c];
+    atom->omega[i][c] += angular * atom->torque[i][c];
   }
 }
 

@@ -106,6 +106,7 @@ class FixNVESphereMTS : public Fix {
   void choose_steps();
   apf::Slow slow_of(int i, const double *contact_force, const double *contact_torque) const;
   void kick_atom(int i, double time);
+  void kick_free(int i);
   template <class Row> void sub_step_active();
   void drift_free();
   bigint late_contacts() const;

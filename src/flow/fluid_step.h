@@ -26,9 +26,21 @@ template <class Law> class FluidStep {
     m = mass;
     k = stokes_resistance(mu, d);
     k_spin = stokes_spin_resistance(mu, d);
-    phi = mean_decay(h * k / m);
-    phi_spin = mean_decay(h * k_spin / sphere::moment_of_inertia(m, d));
+    stokes_rate = k / m;
+    stokes_spin_rate = k_spin / sphere::moment_of_inertia(m, d);
+    phi = mean_decay(h * stokes_rate);
+    phi_spin = mean_decay(h * stokes_spin_rate);
   }
+
+  // rates at which velocity and angular velocity relax towards the fluid's   [1/time]
+  double rate(const Vec3 &slip) const
+  {
+    if constexpr (Law::linear)
+      return stokes_rate;
+    else
+      return stokes_rate * factor(slip);
+  }
+  double spin_rate() const { return stokes_spin_rate; }
 
   // weight less buoyancy in the gravity g
   Vec3 gravity(const Vec3 &g) const { return buoyant_mass(m, d, density) * g; }
@@ -64,6 +76,7 @@ template <class Law> class FluidStep {
   double d = -1.0;       // diameter and mass of the sphere
   double m = -1.0;
   double k = 0.0, k_spin = 0.0;        // its resistances at f = 1
+  double stokes_rate = 0.0, stokes_spin_rate = 0.0;
   double phi = 1.0, phi_spin = 1.0;    // and the decays over a step that belong to them
 };
 
