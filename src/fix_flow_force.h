@@ -54,7 +54,7 @@ class FixFlowForce : public Fix {
     double rate = 0.0, spin_rate = 0.0;
   };
   std::vector<Relaxation> relaxations;    // of local atoms, where contacts are sub-stepped
-  double total[6], total_all[6];                 // drag 3, gravity 3, over the group
+  double total[6], total_all[6];          // drag 3, gravity 3, over the group
   bool summed;
 
   int parse_drag(int iarg, int narg, char **arg);

@@ -2,7 +2,6 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "contact/stiffness.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
@@ -29,7 +28,7 @@ static constexpr double big = 1.0e300;
 /* ---------------------------------------------------------------------- */
 
 FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), kappa(apf::accurate_kappa), exchange(world)
+    Fix(lmp, narg, arg), exchange(world)
 {
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
     error->all(FLERR, 2, "{} needs atom style sphere, got {}", command, atom->get_style());
@@ -52,13 +51,23 @@ FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
   if (narg < 5) missing("collision");
   if (strcmp(arg[3], "collision") != 0)
     error->all(FLERR, 3, "{} begins with keyword collision, got {}", command, arg[3]);
-  if (strcmp(arg[4], "auto") != 0) {
+  const std::string how = arg[4];
+  int iarg = 5;
+  if (how == "tolerance") {
+    if (narg < 6) missing("collision tolerance");
+    rule.tolerance = utils::numeric(FLERR, arg[iarg], false, lmp);
+    if (!(rule.tolerance > 0.0 && rule.tolerance <= 0.08))
+      error->all(FLERR, iarg, "{} collision tolerance must be in (0, 0.08], got {}", command,
+                 arg[iarg]);
+    iarg++;
+  } else if (how != "auto") {
     fixed_steps = utils::inumeric(FLERR, arg[4], false, lmp);
     if (fixed_steps < 1)
-      error->all(FLERR, 4, "{} collision must be auto or a number of steps >= 1, got {}", command,
-                 arg[4]);
+      error->all(FLERR, 4,
+                 "{} collision must be auto, tolerance T or a number of steps >= 1, got {}",
+                 command, arg[4]);
   }
-  for (int iarg = 5; iarg < narg; iarg += 2) {
+  for (; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
     if (word != "safety" && word != "fluid" && word != "lookahead")
       error->all(FLERR, iarg, "{} keyword must be safety, fluid or lookahead, got {}", command,
@@ -66,12 +75,13 @@ FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
     if (iarg + 1 == narg) missing(word);
     const char *value = arg[iarg + 1];
     if (word == "safety") {
-      kappa = utils::numeric(FLERR, value, false, lmp);
-      if (!(kappa > 0.0 && kappa <= apf::largest_stable_kappa))
+      rule.kappa = utils::numeric(FLERR, value, false, lmp);
+      if (!(rule.kappa > 0.0 && rule.kappa <= apf::largest_stable_kappa))
         error->all(FLERR, iarg + 1, "{} safety must be in (0, {}], got {}", command,
                    apf::largest_stable_kappa, value);
-      if (fixed_steps)
-        error->all(FLERR, iarg, "{} safety has no meaning beside collision {}", command, arg[4]);
+      if (how != "auto")
+        error->all(FLERR, iarg, "{} safety goes with collision auto only, got collision {}",
+                   command, how);
     } else if (word == "fluid") {
       fluid_every = utils::inumeric(FLERR, value, false, lmp);
       if (fluid_every < 1)
@@ -133,9 +143,9 @@ void FixNVESphereMTS::init()
   const auto freezes = modify->get_fix_by_style("^freeze");
   freeze_group_bit = freezes.empty() ? 0 : freezes[0]->groupbit;
   if (!fixed_steps && n_collision == 1)
-    n_collision = std::max(
-        1,
-        static_cast<int>(std::ceil(update->dt * history->stiffest_possible().frequency / kappa)));
+    n_collision = std::max(1,
+                           static_cast<int>(std::ceil(
+                               update->dt * history->stiffest_possible().frequency / rule.kappa)));
 }
 
 void FixNVESphereMTS::setup(int)
@@ -344,17 +354,19 @@ void FixNVESphereMTS::unpack_reverse_comm(int n, int *list, double *buf)
 void FixNVESphereMTS::choose_steps()
 {
   apf::Stiffest stiffest;
+  stiffest.rule = rule;
   stiffest.v45 = std::pow(ahead.fastest, 0.8);
   for (auto *keeper : keepers) keeper->find_stiffest(stiffest);
   struct {
-    double frequency2;
+    double demand2;
     int mode;
-  } mine{stiffest.frequency2, stiffest.mode}, all;
+  } mine{stiffest.demand2, stiffest.mode}, all;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
   limiting_mode = apf::mode_names[all.mode];
-  largest_frequency = std::sqrt(all.frequency2);
-  if (!fixed_steps)
-    n_collision = std::max(1, static_cast<int>(std::ceil(largest_frequency * update->dt / kappa)));
+  const double demand = std::sqrt(all.demand2);
+  MPI_Allreduce(&stiffest.frequency2, &frequency_now, 1, MPI_DOUBLE, MPI_MAX, world);
+  frequency_now = std::sqrt(frequency_now);
+  if (!fixed_steps) n_collision = std::max(1, static_cast<int>(std::ceil(demand * update->dt)));
 
   auto &run = run_totals;
   run.fewest = run.particle_steps ? std::min(run.fewest, n_collision) : n_collision;
@@ -366,8 +378,8 @@ void FixNVESphereMTS::choose_steps()
   for (int i = 0; i < atom->nlocal; i++) active_now += ahead.activity[i] != apf::FREE;
   run.active += active_now;
   run.atoms += atom->nlocal;
-  if (largest_frequency * collision_step() > run.kappa) {
-    run.kappa = largest_frequency * collision_step();
+  if (demand >= run.demand) {
+    run.demand = demand;
     run.mode = limiting_mode;
   }
 }
@@ -495,10 +507,10 @@ void FixNVESphereMTS::post_run()
   utils::logmesg(
       lmp,
       "{} {}: {} particle steps of {:.4g}, {} collision steps, {} to {} in a particle "
-      "step\n  sub-stepped {:.1f} % of the particles; largest omega dt {:.3g} ({} mode); "
+      "step\n  sub-stepped {:.1f} % of the particles; {} mode of contacts set the finest step; "
       "contacts found late {}\n",
       command, id, run.particle_steps, update->dt, run.collision_steps, run.fewest, run.most,
-      100.0 * all[0] / std::max<bigint>(all[1], 1), run.kappa, run.mode, late);
+      100.0 * all[0] / std::max<bigint>(all[1], 1), run.mode, late);
 }
 
 bigint FixNVESphereMTS::late_contacts() const
@@ -530,7 +542,7 @@ double FixNVESphereMTS::compute_vector(int n)
   }
   if (n == 3) return static_cast<double>(all_collision_steps);
   if (n == 4) return static_cast<double>(late_contacts());
-  return largest_frequency * collision_step();
+  return frequency_now * collision_step();
 }
 
 void *FixNVESphereMTS::extract(const char *name, int &dim)

@@ -11,6 +11,7 @@ FixStyle(nve/sphere/mts,FixNVESphereMTS);
 
 #include "fix.h"
 
+#include "contact/stiffness.h"
 #include "ghost_exchange.h"
 #include "timestep/look_ahead.h"
 #include "timestep/sub_step.h"
@@ -61,7 +62,7 @@ class FixNVESphereMTS : public Fix {
  private:
   // as the script has it
   int fixed_steps = 0;    // collision steps of a particle step; 0 = from the stiffest mode
-  double kappa;           // largest omega x collision step                               [-]
+  apf::StepRule rule;     // else: how fine it must be
   int fluid_every = 1;    // particle steps of a fluid step
   bool lookahead = true;
 
@@ -90,13 +91,13 @@ class FixNVESphereMTS : public Fix {
   struct Totals {    // of a run, for the summary
     bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0;
     int fewest = 0, most = 0;
-    double kappa = 0.0;
+    double demand = 0.0;    // of the finest step
     const char *mode = "none";
   } run_totals;
   bigint all_collision_steps = 0, late_before_restart = 0;
   bigint active_now = 0;
   const char *limiting_mode = "none";
-  double largest_frequency = 0.0;
+  double frequency_now = 0.0;
 
   Extremes find_extremes() const;
   void demand_neighbours(const Extremes &);

@@ -397,9 +397,16 @@ void FixWallLevelset::sub_step(const apf::ContactTimes &times)
 
 void FixWallLevelset::find_stiffest(apf::Stiffest &stiffest)
 {
-  contacts.find_stiffest(stiffest);
-  for (const auto &[i, s] : near)
-    stiffest.include(kinds.find(s, coefficient.model, bodies_of(i, s)).mode, 0.0);
+  if (contacts.size() > 0) gather();    // contacts may have ended since the last forces
+  rows.with_rows([&](const auto *r) {
+    contacts.find_stiffest(r, stiffest);
+  });
+  for (const auto &[i, s] : near) {
+    double v[3], omega[3];
+    particles().motion(i, v, omega);
+    stiffest.include(kinds.find(s, coefficient.model, bodies_of(i, s)).mode, 0.0,
+                     MathExtra::lensq3(v));
+  }
 }
 
 /* ----------------------------------------------------------------------

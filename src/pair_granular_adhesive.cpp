@@ -96,7 +96,7 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
 
 void PairGranularAdhesive::detect(bool all)
 {
-  auto detect_rows = [&](const auto *rows) {
+  store->bodies().with_rows([&](const auto *rows) {
     auto touches = [&](int k) {
       const auto approach =
           apf::Approach::of(rows[candidates.i[k]], rows[candidates.j[k]], candidates.touch[k]);
@@ -107,11 +107,7 @@ void PairGranularAdhesive::detect(bool all)
       candidates.detect(rows, touches);
     else
       candidates.detect_near(rows, touches);
-  };
-  if (choice.planar)
-    detect_rows(store->bodies().rows<apf::PlaneRow>());
-  else
-    detect_rows(store->bodies().rows<apf::SpaceRow>());
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -120,17 +116,21 @@ void PairGranularAdhesive::detect(bool all)
 
 void PairGranularAdhesive::find_approaching(apf::LookAhead &ahead)
 {
-  if (choice.planar)
-    candidates.find_approaching(store->bodies().rows<apf::PlaneRow>(), ahead);
-  else
-    candidates.find_approaching(store->bodies().rows<apf::SpaceRow>(), ahead);
+  store->bodies().with_rows([&](const auto *rows) {
+    candidates.find_approaching(rows, ahead);
+  });
 }
 
 void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
 {
-  contacts.find_stiffest(stiffest);
-  for (const int k : candidates.near)
-    stiffest.include(kind_of(candidates.i[k], candidates.j[k]).mode, 0.0);
+  store->bodies().with_rows([&](const auto *rows) {
+    contacts.find_stiffest(rows, stiffest);
+    for (const int k : candidates.near) {
+      const int i = candidates.i[k], j = candidates.j[k];
+      const double speed = apf::Approach::of(rows[i], rows[j], candidates.touch[k]).relative_speed;
+      stiffest.include(kind_of(i, j).mode, 0.0, speed * speed);
+    }
+  });
 }
 
 // Masses are shared anew at the next particle step; contacts made until then count their bodies'

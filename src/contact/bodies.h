@@ -5,6 +5,7 @@
 #ifndef APF_BODIES_H
 #define APF_BODIES_H
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -30,12 +31,48 @@ struct alignas(128) SpaceRow {
   double unused;
 };
 
+// Relative velocity of the surfaces of two spheres where they touch, squared: nothing in a rigid
+// rotation of the pair.
+inline double contact_speed2(const PlaneRow &i, const PlaneRow &j, double ri, double rj)
+{
+  const double d[2] = {j.x[0] - i.x[0], j.x[1] - i.x[1]};
+  const double inv = 1.0 / std::sqrt(d[0] * d[0] + d[1] * d[1]);
+  const double spin = (ri * i.omega[0] + rj * j.omega[0]) * inv;
+  const double u = i.v[0] - j.v[0] - spin * d[1], v = i.v[1] - j.v[1] + spin * d[0];
+  return u * u + v * v;
+}
+inline double contact_speed2(const SpaceRow &i, const SpaceRow &j, double ri, double rj)
+{
+  double d[3], w[3], d2 = 0.0, sum = 0.0;
+  for (int c = 0; c < 3; c++) {
+    d[c] = j.x[c] - i.x[c];
+    w[c] = ri * i.omega[c] + rj * j.omega[c];
+    d2 += d[c] * d[c];
+  }
+  const double inv = 1.0 / std::sqrt(d2);
+  for (int c = 0; c < 3; c++) {
+    const int a = (c + 1) % 3, b = (c + 2) % 3;
+    const double u = i.v[c] - j.v[c] + inv * (w[a] * d[b] - w[b] * d[a]);
+    sum += u * u;
+  }
+  return sum;
+}
+
 class Bodies {
  public:
   explicit Bodies(bool planar = false) : flat(planar) {}
 
   bool planar() const { return flat; }
   int size() const { return static_cast<int>(flat ? plane.size() : space.size()); }
+
+  // calls action(rows) with the rows as the planar or the spatial code sees them
+  template <class Action> void with_rows(Action action)
+  {
+    if (flat)
+      action(plane.data());
+    else
+      action(space.data());
+  }
 
   // new rows are zero
   void resize(int n)

@@ -7,6 +7,7 @@
 #ifndef APF_CONTACT_LIST_H
 #define APF_CONTACT_LIST_H
 
+#include "bodies.h"
 #include "contact_kind.h"
 
 #include <array>
@@ -96,10 +97,15 @@ class ContactList {
     });
   }
 
-  // the stiffest mode of all contacts, as they are now
-  void find_stiffest(Stiffest &stiffest) const
+  // which contact demands the finest step, with the bodies as they move now
+  template <class Row> void find_stiffest(const Row *rows, Stiffest &stiffest) const
   {
-    for (int k = 0; k < size(); k++) stiffest.include(mode[k], overlap[k]);
+    const auto &radius_sum = constants[offsetof(ContactConstants, radius_sum) / sizeof(double)];
+    const auto &radius_i = constants[offsetof(ContactConstants, radius_i) / sizeof(double)];
+    for (int k = 0; k < size(); k++)
+      stiffest.include(
+          mode[k], overlap[k],
+          contact_speed2(rows[i[k]], rows[j[k]], radius_i[k], radius_sum[k] - radius_i[k]));
   }
 
   ContactConstants constants_of(int k) const

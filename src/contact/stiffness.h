@@ -31,26 +31,49 @@ struct StiffestMode {
   double overlap = 1.0;      // at rest                                                [length]
   double least = 0.0;        // overlap below which stiffness does not fall: at rest, 0 for Hertz
   double impact = 0.0;       // an impact at the speed v compresses by impact v^(4/5) (Hertz)
+  double slow2 = 0.0;        // 2 F_C delta_C / m: adhesion rules slower contacts [velocity^2]
   ContactMode mode = NONE;
 
   const char *name() const { return mode_names[mode]; }
   bool operator<(const StiffestMode &other) const { return frequency < other.frequency; }
 };
 
-// The stiffest mode of many contacts, as they may become when bodies meet at a speed v: stiffnesses
-// grow at most as the contact radius, and that as the root of the overlap.
-struct Stiffest {
-  double v45 = 0.0;           // v^(4/5)
-  double frequency2 = 0.0;    // frequency squared                                   [1/time^2]
-  ContactMode mode = NONE;
+// How fine a step must be: omega step <= kappa. Either kappa is the same for all contacts, or it
+// follows from a tolerance T for the error of energy that leapfrog steps make,
+//   (1/2) m v^2 (omega step)^2 / 8 <= T max(F_C delta_C, (1/2) m v^2),
+// so that contacts at rest take the largest stable step, and impacts faster than adhesion takes
+// note of one that depends on T only.
+struct StepRule {
+  double kappa = accurate_kappa;
+  double tolerance = 0.0;    // T; 0 = kappa as it is                                        [-]
 
-  void include(const StiffestMode &mode, double overlap)
+  double kappa2(double slow2, double speed2) const
   {
-    const double deepest = std::max({overlap, mode.impact * v45, mode.least});
-    const double f2 = mode.frequency * mode.frequency * std::sqrt(deepest / mode.overlap);
-    if (f2 <= frequency2) return;
-    frequency2 = f2;
-    this->mode = mode.mode;
+    if (tolerance == 0.0) return kappa * kappa;
+    const double k2 = 8.0 * tolerance * (slow2 > speed2 ? slow2 / speed2 : 1.0);
+    return std::min(k2, largest_stable_kappa * largest_stable_kappa);
+  }
+};
+
+// The contact that demands the finest step, of many. Stiffnesses grow at most as the contact
+// radius, and that as the root of the overlap, with an impact at the speed v in view.
+struct Stiffest {
+  StepRule rule;
+  double v45 = 0.0;           // v^(4/5)
+  double frequency2 = 0.0;    // largest of all contacts, squared                   [1/time^2]
+  double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
+  ContactMode mode = NONE;    // of the contact that demands it
+
+  // speed2: relative velocity at the contact, squared
+  void include(const StiffestMode &contact, double overlap, double speed2)
+  {
+    const double deepest = std::max({overlap, contact.impact * v45, contact.least});
+    const double f2 = contact.frequency * contact.frequency * std::sqrt(deepest / contact.overlap);
+    const double d2 = f2 / rule.kappa2(contact.slow2, speed2);
+    frequency2 = std::max(frequency2, f2);
+    if (d2 <= demand2) return;
+    demand2 = d2;
+    mode = contact.mode;
   }
 };
 
@@ -71,12 +94,14 @@ inline StiffestMode stiffest_mode(const ContactModel &model, const ContactBodies
   // (1/2) m v^2 = (8/15) E sqrt(R) overlap^(5/2)
   const double impact = std::pow(15.0 * bodies.m / (16.0 * E * std::sqrt(bodies.R)), 0.4);
 
+  const double slow2 = 2.0 * normal.pulloff_force() * normal.pulloff_overlap() / bodies.m;
+
   StiffestMode worst;
   for (const auto &[frequency, mode] : {std::pair(std::sqrt(kn / bodies.m), NORMAL),
                                         std::pair(std::sqrt(3.5 * kt / bodies.m), TANGENTIAL),
                                         std::pair(std::sqrt(kq / bodies.I), TWISTING),
                                         std::pair(std::sqrt(kr / bodies.I), ROLLING)})
-    worst = std::max(worst, StiffestMode{frequency, overlap, least, impact, mode});
+    worst = std::max(worst, StiffestMode{frequency, overlap, least, impact, slow2, mode});
   return worst;
 }
 

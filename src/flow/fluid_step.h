@@ -75,7 +75,7 @@ template <class Law> class FluidStep {
   double h;              // time step
   double d = -1.0;       // diameter and mass of the sphere
   double m = -1.0;
-  double k = 0.0, k_spin = 0.0;        // its resistances at f = 1
+  double k = 0.0, k_spin = 0.0;    // its resistances at f = 1
   double stokes_rate = 0.0, stokes_spin_rate = 0.0;
   double phi = 1.0, phi_spin = 1.0;    // and the decays over a step that belong to them
 };
