@@ -91,11 +91,19 @@ apf::ContactTimes FixContacts::last_times() const
   return {0.0, taken.behind, taken.step};
 }
 
-void FixContacts::note_touch(double overlap, double closing_speed)
+void FixContacts::note_touch(const apf::Approach &approach, double radius_sum)
 {
-  constexpr double rounding = 1.1;    // and the turning of the pair within a step
   if (!sub_stepper || update->setupflag) return;
-  if (overlap > rounding * std::max(closing_speed, 0.0) * sub_stepper->collision_step()) late++;
+  constexpr double rounding = 1.1;
+  const double step = sub_stepper->collision_step();
+  const double moved = step * approach.relative_speed;
+  const double turning = 0.5 * moved * moved / radius_sum;    // of a pair that grazes
+  if (-approach.gap > rounding * (step * std::max(approach.closing_speed, 0.0) + turning)) late++;
+}
+
+bool FixContacts::step_is_given() const
+{
+  return !sub_stepper || sub_stepper->fixed_number();
 }
 
 double FixContacts::step_of_level() const

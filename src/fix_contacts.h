@@ -79,9 +79,10 @@ class FixContacts : public Fix {
   const apf::ContactTimes &times() const { return taken; }
   apf::ContactTimes last_times() const;    // to look at the same forces again
   double step_of_level() const;            // time between two force computations
+  bool step_is_given() const;              // by the script, not chosen to suit the contacts
 
-  // takes note of a first touch, of the overlap that was found at that closing speed
-  void note_touch(double overlap, double closing_speed);
+  // takes note of a first touch, if it is deeper than the approach can have brought it in a step
+  void note_touch(const apf::Approach &approach, double radius_sum);
 
   std::vector<FixContacts *> keepers;    // all fixes that own contacts, this one included
   bigint changes = 0;                    // contacts made and ended so far

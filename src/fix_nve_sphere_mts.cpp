@@ -315,6 +315,8 @@ int FixNVESphereMTS::pack_forward_comm(int n, int *list, double *buf, int /*pbc_
     const int i = list[k];
     if (message == Message::ACTIVITY) {
       buf[m++] = ahead.activity[i];
+    } else if (message == Message::VALUES) {
+      buf[m++] = values[i];
     } else {
       buf[m++] = owner_rank[i];
       buf[m++] = owner_row[i];
@@ -328,6 +330,8 @@ void FixNVESphereMTS::unpack_forward_comm(int n, int first, double *buf)
   for (int i = first; i < first + n; i++)
     if (message == Message::ACTIVITY) {
       ahead.activity[i] = static_cast<char>(*buf++);
+    } else if (message == Message::VALUES) {
+      values[i] = *buf++;
     } else {
       owner_rank[i] = static_cast<int>(*buf++);
       owner_row[i] = static_cast<int>(*buf++);
@@ -347,6 +351,22 @@ void FixNVESphereMTS::unpack_reverse_comm(int n, int *list, double *buf)
 }
 
 /* ----------------------------------------------------------------------
+   by all forces as they stand, of local and ghost atoms: |f|/m + r |torque|/I
+------------------------------------------------------------------------- */
+
+std::vector<double> FixNVESphereMTS::surface_accelerations()
+{
+  values.assign(atom->nlocal + atom->nghost, 0.0);
+  for (int i = 0; i < atom->nlocal; i++)
+    values[i] =
+        (MathExtra::len3(atom->f[i]) + 2.5 * MathExtra::len3(atom->torque[i]) / atom->radius[i]) /
+        atom->rmass[i];
+  message = Message::VALUES;
+  comm->forward_comm(this, 1);
+  return std::move(values);
+}
+
+/* ----------------------------------------------------------------------
    number of collision steps: as the script says, or omega dt <= kappa for the stiffest mode of all
    contacts that there are or may be within the step
 ------------------------------------------------------------------------- */
@@ -355,6 +375,8 @@ void FixNVESphereMTS::choose_steps()
 {
   apf::Stiffest stiffest;
   stiffest.rule = rule;
+  stiffest.step = update->dt;
+  if (rule.tolerance > 0.0) stiffest.acceleration = surface_accelerations();
   stiffest.v45 = std::pow(ahead.fastest, 0.8);
   for (auto *keeper : keepers) keeper->find_stiffest(stiffest);
   struct {

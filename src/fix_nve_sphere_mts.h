@@ -57,7 +57,7 @@ class FixNVESphereMTS : public Fix {
   // time between two force computations of contacts, and of the kicks that atom i gets
   double collision_step() const;
   double step_of(int i) const;
-  bool looks_ahead() const { return lookahead; }
+  bool fixed_number() const { return fixed_steps > 0; }
 
  private:
   // as the script has it
@@ -78,7 +78,8 @@ class FixNVESphereMTS : public Fix {
   std::vector<double> x_built;    // positions when the neighbour list was built, [atoms][3]
   bool owners_known = false;
   std::vector<int> owner_rank, owner_row;    // of local and ghost atoms
-  enum class Message { OWNERS, ACTIVITY } message = Message::OWNERS;
+  enum class Message { OWNERS, ACTIVITY, VALUES } message = Message::OWNERS;
+  std::vector<double> values;
 
   // global maxima at the start of a particle step
   struct Extremes {
@@ -104,6 +105,7 @@ class FixNVESphereMTS : public Fix {
   void look_ahead();
   void share_activity();
   void know_owners();
+  std::vector<double> surface_accelerations();
   void choose_steps();
   apf::Slow slow_of(int i, const double *contact_force, const double *contact_torque) const;
   void kick_atom(int i, double time);

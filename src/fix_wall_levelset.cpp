@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "contact/jump.h"
 #include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
@@ -107,10 +108,11 @@ void FixWallLevelset::init()
                  command, id, smallest[2], surface.radius);
   const double r = 1.0 / smallest[0], m = 1.0 / smallest[1];
   check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, r, r);
-  check_timestep(
-      lmp, fmt::format("Fix wall/levelset {}", id),
-      apf::stiffest_mode(coefficient.model, apf::ContactBodies::wall(r, m, 0.4 * m * r * r)),
-      step_of_level());
+  if (step_is_given())
+    check_timestep(
+        lmp, fmt::format("Fix wall/levelset {}", id),
+        apf::stiffest_mode(coefficient.model, apf::ContactBodies::wall(r, m, 0.4 * m * r * r)),
+        step_of_level());
 }
 
 /* ----------------------------------------------------------------------
@@ -160,11 +162,11 @@ void FixWallLevelset::post_force(int vflag)
   if (rebuild) find_again();
   const auto times = lender ? lender->times() : take_velocities();
   contacts_change();
+  const int before = contacts.size();
+  parted.clear();
   detect();
   share_masses();
-  gather();
-  const int ended = kernel(contacts, rows, times, nullptr);
-  return_loads();
+  const int ended = add_forces(times, before);
   tally(vflag);
   if (ended) remove_ended(false);
 }
@@ -193,7 +195,7 @@ void FixWallLevelset::touch(int i, int surface, double distance)
                "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
                "inside, or use a smaller timestep",
                command, id, atom->tag[i], -distance);
-  note_touch(atom->radius[i] - distance, closing_speed(i, surface));
+  note_touch(approach_of(i, surface, distance), atom->radius[i]);
   close(i, surface, apf::ContactHistory());
   captured += 1.0;
 }
@@ -255,7 +257,7 @@ void FixWallLevelset::remove_ended(bool in_sub_step)
 {
   for (int k = contacts.size() - 1; k >= 0; k--) {
     if (!contacts.ended(k)) continue;
-    if (in_sub_step) near.push_back({contacts.source[k], surface_of[k]});    // may touch again
+    (in_sub_step ? near : parted).push_back({contacts.source[k], surface_of[k]});
     touched[contacts.source[k]] &= ~(1u << surface_of[k]);
     contacts.remove(k);
     surface_of[k] = surface_of.back();
@@ -293,6 +295,22 @@ void FixWallLevelset::gather()
     rows.place(2 * k + 1, foot);
   }
   rows.clear_loads(0, 2 * n);
+}
+
+// Forces of all contacts, those from number `made` on being new; returns how many have ended.
+int FixWallLevelset::add_forces(const apf::ContactTimes &times, int made)
+{
+  gather();
+  const int ended = kernel(contacts, rows, times, nullptr);
+  if (times.advance > 0.0 && (ended || made < contacts.size()))
+    rows.with_rows([&](auto *r) {
+      for (int k = made; k < contacts.size(); k++)
+        apf::correct_touch(contacts, k, r, times.advance);
+      for (int k = 0; k < contacts.size(); k++)
+        if (contacts.ended(k)) apf::correct_end(contacts, k, r, times.advance);
+    });
+  return_loads();
+  return ended;
 }
 
 // what the wall exerts on particles goes to their rows
@@ -341,20 +359,19 @@ void FixWallLevelset::tally(int vflag)
 
 void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
 {
-  near.clear();
+  near = parted;
+  for (const auto &[i, s] : parted) ahead.come_near(i);
   perhaps.clear();
   const double farthest = ahead.distance(ahead.limit);
-  const auto &bodies = particles();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     for (int s = 0; s < static_cast<int>(surfaces.size()); s++) {
       const bool closed = touched[i] >> s & 1;
       const double gap = surfaces[s].distance(atom->x[i]) - atom->radius[i];
       if (!closed && gap > farthest) continue;
-      if (closed || gap <= ahead.distance(closing_speed(i, s))) {
-        double v[3], omega[3];
-        bodies.motion(i, v, omega);
-        ahead.meet(i, MathExtra::len3(v));
+      const auto approach = approach_of(i, s, gap + atom->radius[i]);
+      if (closed || gap <= ahead.distance(approach.closing_speed)) {
+        ahead.meet(i, approach.relative_speed);
         if (!closed) near.push_back({i, s});
       } else {
         perhaps.push_back({i, s, gap});
@@ -363,15 +380,15 @@ void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
   }
 }
 
-// of a particle towards the wall
-double FixWallLevelset::closing_speed(int i, int surface)
+apf::Approach FixWallLevelset::approach_of(int i, int surface, double distance)
 {
   double v[3], omega[3], x[3], foot[3], n[3];
   particles().motion(i, v, omega);
   particles().position(i, x);
   surfaces[surface].foot(x, foot);
   MathExtra::sub3(foot, x, n);
-  return MathExtra::dot3(v, n) / MathExtra::len3(n);
+  const double closing_speed = MathExtra::dot3(v, n) / MathExtra::len3(n);
+  return {distance - atom->radius[i], closing_speed, MathExtra::len3(v)};
 }
 
 void FixWallLevelset::find_near(apf::LookAhead &ahead)
@@ -384,13 +401,12 @@ void FixWallLevelset::find_near(apf::LookAhead &ahead)
 void FixWallLevelset::sub_step(const apf::ContactTimes &times)
 {
   double x[3];
+  const int before = contacts.size();
   for (const auto &[i, s] : near) {
     particles().position(i, x);
     touch(i, s, surfaces[s].distance(x));
   }
-  gather();
-  const int ended = kernel(contacts, rows, times, nullptr);
-  return_loads();
+  const int ended = add_forces(times, before);
   contacts_change();
   if (ended) remove_ended(true);
 }
@@ -399,13 +415,13 @@ void FixWallLevelset::find_stiffest(apf::Stiffest &stiffest)
 {
   if (contacts.size() > 0) gather();    // contacts may have ended since the last forces
   rows.with_rows([&](const auto *r) {
-    contacts.find_stiffest(r, stiffest);
+    contacts.find_stiffest(r, stiffest, [&](int k) {
+      return stiffest.acceleration[contacts.source[k]];
+    });
   });
   for (const auto &[i, s] : near) {
-    double v[3], omega[3];
-    particles().motion(i, v, omega);
-    stiffest.include(kinds.find(s, coefficient.model, bodies_of(i, s)).mode, 0.0,
-                     MathExtra::lensq3(v));
+    const auto approach = approach_of(i, s, surfaces[s].distance(atom->x[i]));
+    stiffest.include_near(kinds.find(s, coefficient.model, bodies_of(i, s)).mode, approach);
   }
 }
 

@@ -63,7 +63,8 @@ class FixWallLevelset : public FixContacts {
   struct Near {
     int i, surface;
   };
-  std::vector<Near> near;    // particles that may touch within the present particle step
+  std::vector<Near> near;      // particles that may touch within the present particle step
+  std::vector<Near> parted;    // particles whose contact ended at the last look
   struct Perhaps {
     int i, surface;
     double gap;
@@ -85,7 +86,7 @@ class FixWallLevelset : public FixContacts {
   void find_again();
   void detect();
   void touch(int i, int surface, double distance);
-  double closing_speed(int i, int surface);
+  apf::Approach approach_of(int i, int surface, double distance);
   void close(int i, int surface, const apf::ContactHistory &);
   apf::ContactBodies bodies_of(int i, int surface) const;
   double crowding(int i) const;
@@ -94,6 +95,7 @@ class FixWallLevelset : public FixContacts {
                          -1};    // changes here and counts of the lender when masses were shared
   void remove_ended(bool in_sub_step);
   void gather();
+  int add_forces(const apf::ContactTimes &, int made);
   void return_loads();
   void tally(int vflag);
 };

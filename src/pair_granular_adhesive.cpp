@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "contact/jump.h"
 #include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
@@ -77,7 +78,7 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   auto &bodies = store->bodies();
   bodies.clear_loads(0, atom->nlocal + atom->nghost);
   // contacts open with first touch and end with the neck
-  detect(true);
+  detect(true, times.advance);
   if (store->count_contacts()) share_masses();
 
   const bool tallied = evflag != 0;
@@ -85,6 +86,7 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   const int ended = kernel(contacts, bodies, times, tallied ? parts.data() : nullptr);
 
   // a ghost's force belongs to another rank, which has computed it as well where newton is off
+  if (ended) correct_ends(times.advance);
   const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   for (int i = 0; i < n; i++) bodies.add_load_to(i, atom->f[i], atom->torque[i]);
   if (tallied) tally(eflag);
@@ -94,14 +96,19 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
 
 /* ---------------------------------------------------------------------- */
 
-void PairGranularAdhesive::detect(bool all)
+// step: since positions were looked at before, 0 if they were not
+void PairGranularAdhesive::detect(bool all, double step)
 {
-  store->bodies().with_rows([&](const auto *rows) {
+  candidates.parted.clear();
+  store->bodies().with_rows([&](auto *rows) {
     auto touches = [&](int k) {
       const auto approach =
           apf::Approach::of(rows[candidates.i[k]], rows[candidates.j[k]], candidates.touch[k]);
-      store->note_touch(-approach.gap, approach.closing_speed);
+      const int i = candidates.i[k], j = candidates.j[k];
+      const bool mine = force->newton_pair || j < atom->nlocal || atom->tag[i] < atom->tag[j];
+      if (mine) store->note_touch(approach, candidates.touch[k]);    // one of the ranks that see it
       close(k, apf::ContactHistory());
+      if (step > 0.0) apf::correct_touch(contacts, contacts.size() - 1, rows, step);
     };
     if (all)
       candidates.detect(rows, touches);
@@ -124,11 +131,13 @@ void PairGranularAdhesive::find_approaching(apf::LookAhead &ahead)
 void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
 {
   store->bodies().with_rows([&](const auto *rows) {
-    contacts.find_stiffest(rows, stiffest);
+    contacts.find_stiffest(rows, stiffest, [&](int k) {
+      return stiffest.acceleration[contacts.i[k]] + stiffest.acceleration[contacts.j[k]];
+    });
     for (const int k : candidates.near) {
       const int i = candidates.i[k], j = candidates.j[k];
-      const double speed = apf::Approach::of(rows[i], rows[j], candidates.touch[k]).relative_speed;
-      stiffest.include(kind_of(i, j).mode, 0.0, speed * speed);
+      const auto approach = apf::Approach::of(rows[i], rows[j], candidates.touch[k]);
+      stiffest.include_near(kind_of(i, j).mode, approach);
     }
   });
 }
@@ -137,8 +146,10 @@ void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
 // contacts as they were, so that ranks agree.
 void PairGranularAdhesive::sub_step(const apf::ContactTimes &times)
 {
-  detect(false);
-  if (kernel(contacts, store->bodies(), times, nullptr)) remove_ended(true);
+  detect(false, times.advance);
+  if (!kernel(contacts, store->bodies(), times, nullptr)) return;
+  correct_ends(times.advance);
+  remove_ended(true);
 }
 
 /* ----------------------------------------------------------------------
@@ -222,12 +233,21 @@ void PairGranularAdhesive::share_masses()
 
 /* ---------------------------------------------------------------------- */
 
+void PairGranularAdhesive::correct_ends(double step)
+{
+  if (step == 0.0) return;
+  store->bodies().with_rows([&](auto *rows) {
+    for (int k = 0; k < contacts.size(); k++)
+      if (contacts.ended(k)) apf::correct_end(contacts, k, rows, step);
+  });
+}
+
 void PairGranularAdhesive::remove_ended(bool in_sub_step)
 {
   for (int k = contacts.size() - 1; k >= 0; k--)
     if (contacts.ended(k)) {
       candidates.closed[contacts.source[k]] = 0;
-      if (in_sub_step) candidates.near.push_back(contacts.source[k]);    // they may touch again
+      (in_sub_step ? candidates.near : candidates.parted).push_back(contacts.source[k]);
       store->count_anew();
       contacts.remove(k);
     }
@@ -404,7 +424,8 @@ double PairGranularAdhesive::init_one(int i, int j)
 
 void PairGranularAdhesive::setup()
 {
-  check_timestep(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());
+  if (store->step_is_given())
+    check_timestep(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());
 }
 
 apf::StiffestMode PairGranularAdhesive::stiffest_possible() const

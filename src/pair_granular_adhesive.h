@@ -77,11 +77,12 @@ class PairGranularAdhesive : public Pair {
   void allocate();
   void find_rigid_masses();
   void build_candidates();
-  void detect(bool all);
+  void detect(bool all, double step);
   void close(int candidate, const apf::ContactHistory &);
   apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
   const apf::ContactKind &kind_of(int i, int j);
   void share_masses();
+  void correct_ends(double step);
   void remove_ended(bool in_sub_step);
   void tally(int eflag);
   void evaluate_parts();

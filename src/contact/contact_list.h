@@ -97,15 +97,35 @@ class ContactList {
     });
   }
 
+  // what the springs of normal and sliding hold above their least energy
+  double energy_above_rest(int k) const
+  {
+    const auto c = constants_of(k);
+    const JKR normal{c.R, c.K, c.neck};
+    const double s = jkr_root(overlap[k], c.inv_R, c.neck);
+    const double least = normal.energy(std::cbrt(6.0) * c.neck);    // where the force is 0
+    double sliding2 = 0.0;
+    for (int n = 0; n < 3; n++) sliding2 += history[n][k] * history[n][k];
+    return normal.energy(s) - least + 0.5 * c.kt * s * s * sliding2;
+  }
+
   // which contact demands the finest step, with the bodies as they move now
-  template <class Row> void find_stiffest(const Row *rows, Stiffest &stiffest) const
+  // acceleration(k): largest that the surfaces in contact k have relative to each other
+  template <class Row, class Acceleration>
+  void find_stiffest(const Row *rows, Stiffest &stiffest, Acceleration acceleration) const
   {
     const auto &radius_sum = constants[offsetof(ContactConstants, radius_sum) / sizeof(double)];
     const auto &radius_i = constants[offsetof(ContactConstants, radius_i) / sizeof(double)];
-    for (int k = 0; k < size(); k++)
-      stiffest.include(
-          mode[k], overlap[k],
-          contact_speed2(rows[i[k]], rows[j[k]], radius_i[k], radius_sum[k] - radius_i[k]));
+    const bool adaptive = stiffest.rule.tolerance > 0.0;
+    for (int k = 0; k < size(); k++) {
+      double speed2 = 0.0;
+      if (adaptive) {
+        const double ri = radius_i[k], rj = radius_sum[k] - ri;
+        speed2 = stiffest.fastest2(contact_speed2(rows[i[k]], rows[j[k]], ri, rj),
+                                   energy_above_rest(k) / mode[k].mass, acceleration(k));
+      }
+      stiffest.include(mode[k], overlap[k], speed2);
+    }
   }
 
   ContactConstants constants_of(int k) const

@@ -10,11 +10,13 @@
 #ifndef APF_STIFFNESS_H
 #define APF_STIFFNESS_H
 
+#include "../timestep/look_ahead.h"
 #include "contact_model.h"
 
 #include <algorithm>
 #include <initializer_list>
 #include <utility>
+#include <vector>
 
 namespace apf {
 
@@ -31,6 +33,7 @@ struct StiffestMode {
   double overlap = 1.0;      // at rest                                                [length]
   double least = 0.0;        // overlap below which stiffness does not fall: at rest, 0 for Hertz
   double impact = 0.0;       // an impact at the speed v compresses by impact v^(4/5) (Hertz)
+  double mass = 1.0;         // effective mass                                           [mass]
   double slow2 = 0.0;        // 2 F_C delta_C / m: adhesion rules slower contacts [velocity^2]
   ContactMode mode = NONE;
 
@@ -41,7 +44,7 @@ struct StiffestMode {
 // How fine a step must be: omega step <= kappa. Either kappa is the same for all contacts, or it
 // follows from a tolerance T for the error of energy that leapfrog steps make,
 //   (1/2) m v^2 (omega step)^2 / 8 <= T max(F_C delta_C, (1/2) m v^2),
-// so that contacts at rest take the largest stable step, and impacts faster than adhesion takes
+// v the speed with which the contact may come to move (its springs relaxed, snapped in), so that contacts at rest take the largest stable step, and impacts faster than adhesion takes
 // note of one that depends on T only.
 struct StepRule {
   double kappa = accurate_kappa;
@@ -59,12 +62,30 @@ struct StepRule {
 // radius, and that as the root of the overlap, with an impact at the speed v in view.
 struct Stiffest {
   StepRule rule;
-  double v45 = 0.0;           // v^(4/5)
+  double step = 0.0;    // the particle step                                     [time]
+  double v45 = 0.0;     // v^(4/5)                                    [velocity^(4/5)]
+  std::vector<double> acceleration;    // of each body's surface, where there is a tolerance
   double frequency2 = 0.0;    // largest of all contacts, squared                   [1/time^2]
   double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
   ContactMode mode = NONE;    // of the contact that demands it
 
-  // speed2: relative velocity at the contact, squared
+  // a pair that may touch within the time step; if it does at its present speed, first touch sets
+  // U(0) - U(rest) = 0.607082 F_C delta_C free
+  void include_near(const StiffestMode &contact, const Approach &approach)
+  {
+    const bool touches = approach.gap <= approach.closing_speed * step;
+    const double speed = approach.relative_speed;
+    include(contact, 0.0, speed * speed + (touches ? 0.607082 * contact.slow2 : 0.0));
+  }
+
+  // The largest speed squared that a contact may come to have within the step: its springs give
+  // back what they hold, unless other contacts hold them.
+  double fastest2(double speed2, double energy_per_mass, double acceleration) const
+  {
+    const double speed = std::sqrt(speed2) + acceleration * step;
+    return std::min(speed * speed, speed2 + 2.0 * energy_per_mass);
+  }
+
   void include(const StiffestMode &contact, double overlap, double speed2)
   {
     const double deepest = std::max({overlap, contact.impact * v45, contact.least});
@@ -101,7 +122,7 @@ inline StiffestMode stiffest_mode(const ContactModel &model, const ContactBodies
                                         std::pair(std::sqrt(3.5 * kt / bodies.m), TANGENTIAL),
                                         std::pair(std::sqrt(kq / bodies.I), TWISTING),
                                         std::pair(std::sqrt(kr / bodies.I), ROLLING)})
-    worst = std::max(worst, StiffestMode{frequency, overlap, least, impact, slow2, mode});
+    worst = std::max(worst, StiffestMode{frequency, overlap, least, impact, bodies.m, slow2, mode});
   return worst;
 }
 

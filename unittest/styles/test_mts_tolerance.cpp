@@ -1,0 +1,119 @@
+// collision tolerance T: the number of collision steps follows each contact's speed,
+// omega dt <= min(0.8, sqrt(8 T max(1, 2 F_C delta_C / (m v^2)))), and the error follows T.
+
+#include "scenes.h"
+
+namespace {
+
+const Material material;
+const JkrCurve curve = material.pair();
+const double mass = pi / 6.0, m = 0.5 * mass;    // d = 1, density 1; effective mass
+const double slow2 = 2.0 * curve.F_C() * curve.delta_C() / m;
+const double sticking_speed = std::sqrt(0.935503 * slow2);
+
+// Two spheres; normal force only, so that the stiffest mode is sqrt(6/5 E a0 / m) at rest.
+void place(Simulation &sim, double distance, double speed, const std::string &how, double step)
+{
+  Scene scene;
+  scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "\nneighbor 2.5 bin\n";
+  build(sim, {{3.0, 4.0, 4.0}, {3.0 + distance, 4.0, 4.0}}, scene);
+  char line[200];
+  snprintf(line, sizeof(line), "timestep %.17g\nset atom 1 vx %.17g\nset atom 2 vx %.17g\n", step,
+           0.5 * speed, -0.5 * speed);
+  sim.run(line + ("fix move all nve/sphere/mts collision " + how + "\n"));
+}
+
+double steps_at(double overlap, double speed, double tolerance, double step)
+{
+  Simulation sim;
+  place(sim, 1.0 - overlap, speed, "tolerance " + std::to_string(tolerance), step);
+  sim.run("run 1");
+  return sim.value("f_move[1]");
+}
+
+// restitution of a head-on impact without damping: sqrt(1 - (V_s/V)^2)
+double restitution(double speed, double gap, const std::string &how)
+{
+  Simulation sim;
+  place(sim, 1.0 + gap, speed, how, 0.01 / speed);
+  sim.run("run 40");
+  EXPECT_EQ(sim.value("f_move[5]"), 0.0) << "found late";
+  return (sim.value("vx[2]") - sim.value("vx[1]")) / speed;
+}
+
+// root mean square over speeds and phases of the time grid
+double error_of_restitution(const std::string &how)
+{
+  double sum = 0.0;
+  int n = 0;
+  for (const double ratio : {1.5, 2.0, 3.0, 4.7})
+    for (const double gap : {0.0100, 0.0113, 0.0136, 0.0150, 0.0171}) {
+      const double error =
+          restitution(ratio * sticking_speed, gap, how) - std::sqrt(1.0 - 1.0 / (ratio * ratio));
+      sum += error * error;
+      n++;
+    }
+  return std::sqrt(sum / n);
+}
+
+// deeper contacts are stiffer. Hertz: (1/2) m v^2 = (8/15) E sqrt(R) overlap^(5/2)
+double stiffer(double v)
+{
+  const double deepest =
+      std::pow(15.0 * m * v * v / (16.0 * material.E_eff() * std::sqrt(0.25)), 0.4);
+  return std::pow(std::max(deepest / curve.delta_eq(), 1.0), 0.25);
+}
+
+const double frequency = std::sqrt(1.2 * material.E_eff() * curve.a0() / m);
+
+}    // namespace
+
+TEST(MtsTolerance, contact_at_rest_takes_the_largest_stable_step)
+{
+  const double step = 20.0 / frequency;
+  EXPECT_EQ(steps_at(curve.delta_eq(), 0.0, 0.001, step), std::ceil(20.0 / 0.8));
+  EXPECT_EQ(steps_at(curve.delta_eq(), 0.0, 0.05, step), std::ceil(20.0 / 0.8));
+}
+
+TEST(MtsTolerance, faster_contacts_take_finer_steps)
+{
+  const double step = 20.0 / frequency;
+  for (const double v2 : {0.05, 0.2, 0.7}) {    // (v / slow)^2
+    const double kappa = std::min(0.8, std::sqrt(8.0 * 0.002 / v2));
+    EXPECT_EQ(steps_at(curve.delta_eq(), std::sqrt(v2 * slow2), 0.002, step),
+              std::ceil(20.0 * stiffer(std::sqrt(v2 * slow2)) / kappa))
+        << "v^2 = " << v2;
+  }
+}
+
+TEST(MtsTolerance, impact_faster_than_adhesion_depends_on_tolerance_and_compression)
+{
+  const double step = 20.0 / frequency, v = 6.0 * std::sqrt(slow2);
+  ASSERT_GT(stiffer(v), 1.2);
+  EXPECT_EQ(steps_at(curve.delta_eq(), v, 0.01, step),
+            std::ceil(20.0 * stiffer(v) / std::sqrt(0.08)));
+}
+
+TEST(MtsTolerance, error_of_restitution_falls_with_the_tolerance)
+{
+  const double coarse = error_of_restitution("tolerance 0.05");
+  const double middle = error_of_restitution("tolerance 0.01");
+  const double fine = error_of_restitution("tolerance 0.0005");
+  printf("rms error of e: T = 0.05 %.4f, 0.01 %.4f, 0.0005 %.5f\n", coarse, middle, fine);
+  EXPECT_LT(coarse, 0.05);
+  EXPECT_LT(middle, 0.01);
+  EXPECT_LT(fine, 0.0015);
+  EXPECT_GT(coarse, 2.0 * fine);
+  EXPECT_GT(fine, 1e-6);
+}
+
+TEST(MtsTolerance, wrong_words_are_named)
+{
+  Simulation sim;
+  place(sim, 2.0, 0.0, "1", dt);
+  sim.run("unfix move");
+  EXPECT_NE(sim.error_of("fix move all nve/sphere/mts collision tolerance 0.1").find("(0, 0.08]"),
+            std::string::npos);
+  EXPECT_NE(sim.error_of("fix move all nve/sphere/mts collision tolerance").find("missing"),
+            std::string::npos);
+}
