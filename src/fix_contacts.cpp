@@ -91,11 +91,12 @@ apf::ContactTimes FixContacts::last_times() const
   return {0.0, taken.behind, taken.step};
 }
 
-void FixContacts::note_touch(const apf::Approach &approach, double radius_sum)
+void FixContacts::note_touch(const apf::Approach &approach, double radius_sum,
+                             const apf::StiffestMode &mode)
 {
   if (!sub_stepper || update->setupflag) return;
   constexpr double rounding = 1.1;
-  const double step = sub_stepper->collision_step();
+  const double step = sub_stepper->largest_step(mode);
   const double moved = step * approach.relative_speed;
   const double turning = 0.5 * moved * moved / radius_sum;    // of a pair that grazes
   if (-approach.gap > rounding * (step * std::max(approach.closing_speed, 0.0) + turning)) late++;

@@ -82,7 +82,7 @@ class FixContacts : public Fix {
   bool step_is_given() const;              // by the script, not chosen to suit the contacts
 
   // takes note of a first touch, if it is deeper than the approach can have brought it in a step
-  void note_touch(const apf::Approach &approach, double radius_sum);
+  void note_touch(const apf::Approach &, double radius_sum, const apf::StiffestMode &);
 
   std::vector<FixContacts *> keepers;    // all fixes that own contacts, this one included
   bigint changes = 0;                    // contacts made and ended so far

@@ -161,6 +161,12 @@ double FixNVESphereMTS::collision_step() const
   return update->dt / n_collision;
 }
 
+double FixNVESphereMTS::largest_step(const apf::StiffestMode &mode) const
+{
+  if (fixed_steps) return collision_step();
+  return std::min(collision_step(), apf::largest_stable_kappa / mode.frequency);
+}
+
 double FixNVESphereMTS::step_of(int i) const
 {
   return activity[i] == apf::FREE ? update->dt : collision_step();

@@ -195,8 +195,8 @@ void FixWallLevelset::touch(int i, int surface, double distance)
                "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
                "inside, or use a smaller timestep",
                command, id, atom->tag[i], -distance);
-  note_touch(approach_of(i, surface, distance), atom->radius[i]);
   close(i, surface, apf::ContactHistory());
+  note_touch(approach_of(i, surface, distance), atom->radius[i], contacts.mode.back());
   captured += 1.0;
 }
 

@@ -106,7 +106,9 @@ void PairGranularAdhesive::detect(bool all, double step)
           apf::Approach::of(rows[candidates.i[k]], rows[candidates.j[k]], candidates.touch[k]);
       const int i = candidates.i[k], j = candidates.j[k];
       const bool mine = force->newton_pair || j < atom->nlocal || atom->tag[i] < atom->tag[j];
-      if (mine) store->note_touch(approach, candidates.touch[k]);    // one of the ranks that see it
+      if (mine)
+        store->note_touch(approach, candidates.touch[k],
+                          kind_of(i, j).mode);    // one of the ranks that see it
       close(k, apf::ContactHistory());
       if (step > 0.0) apf::correct_touch(contacts, contacts.size() - 1, rows, step);
     };

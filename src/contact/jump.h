@@ -1,9 +1,9 @@
-// The force of an adhesive contact jumps when bodies first touch, from 0 to -8/9 F_C, and when their
-// neck ends, from -5/9 F_C to 0 (damping jumps along). Leapfrog steps see that up to a step late; with
-// nothing done about it a collision gains or loses (force jump) x (distance of half a step) by chance,
-// an error of first order in the step and the largest of all in the sticking velocity. When the jump
-// came is known from the overlap and the speed, so the kick of the step in which it is seen gets the
-// impulse that is missing, or has been given too much.
+// The force of an adhesive contact jumps when bodies first touch, from 0 to -8/9 F_C, and when
+// their neck ends, from -5/9 F_C to 0 (damping jumps along). Leapfrog steps see that up to a step
+// late; with nothing done about it a collision gains or loses (force jump) x (distance of half a
+// step) by chance, an error of first order in the step and the largest of all in the sticking
+// velocity. When the jump came is known from the overlap and the speed, so the kick of the step in
+// which it is seen gets the impulse that is missing, or gives back what was too much.
 //
 //   touch, a time t ago:   force x (t + step/2) is due, force x step is given
 //   end,   a time t ago:   force x (step/2 - t) is due, nothing is given

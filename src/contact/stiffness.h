@@ -44,8 +44,8 @@ struct StiffestMode {
 // How fine a step must be: omega step <= kappa. Either kappa is the same for all contacts, or it
 // follows from a tolerance T for the error of energy that leapfrog steps make,
 //   (1/2) m v^2 (omega step)^2 / 8 <= T max(F_C delta_C, (1/2) m v^2),
-// v the speed with which the contact may come to move (its springs relaxed, snapped in), so that contacts at rest take the largest stable step, and impacts faster than adhesion takes
-// note of one that depends on T only.
+// v the speed with which the contact may come to move: contacts at rest take the largest stable
+// step, and impacts too fast for adhesion one that depends on T only.
 struct StepRule {
   double kappa = accurate_kappa;
   double tolerance = 0.0;    // T; 0 = kappa as it is                                        [-]
