@@ -269,7 +269,8 @@ void FixNVESphereMTS::demand_neighbours(const Extremes &now)
                "smaller timestep",
                command, distance, lookahead_safety, dt, skin, 1.5 * distance);
   const double displacement = now.displacement + growth * now.speed * dt;
-  if (domain->box_change || 2.0 * displacement + growth * distance > skin)
+  if (domain->box_change_size || domain->box_change_shape ||
+      2.0 * displacement + growth * distance > skin)
     next_reneighbor = update->ntimestep;
 }
 

@@ -11,14 +11,17 @@
 
 namespace apf {
 
+// What contacts read stands before what they add to, so that writing a load never holds up reading
+// the next contact's velocities; both in pieces of two and four for vector loads (contact_kernel.cpp).
+
 // in the xy plane: spins and torques about z
 struct alignas(64) PlaneRow {
   static constexpr int dim = 2, spin_dim = 1;
   double x[2];         // position                                             [length]
   double v[2];         // velocity                                             [length/time]
-  double f[2];         // force of the contacts                                [force]
-  double torque[1];    // torque of the contacts                               [force length]
   double omega[1];     // angular velocity                                     [1/time]
+  double torque[1];    // torque of the contacts                               [force length]
+  double f[2];         // force of the contacts                                [force]
 };
 
 struct alignas(128) SpaceRow {
@@ -26,9 +29,9 @@ struct alignas(128) SpaceRow {
   double x[3];
   double v[3];
   double omega[3];
+  double unused;
   double f[3];
   double torque[3];
-  double unused;
 };
 
 // Relative velocity of the surfaces of two spheres where they touch, squared: nothing in a rigid

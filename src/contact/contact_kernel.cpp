@@ -1,7 +1,9 @@
 // Compiled once per instruction set (CMakeLists.txt); APF_ISA names the namespace of this copy.
 
 #include "contact_kernel.h"
+#include "pack.h"
 
+#include <cstddef>
 #include <type_traits>
 
 #ifndef APF_ISA
@@ -10,227 +12,311 @@
 
 namespace apf::APF_ISA {
 
-constexpr int width = 8;    // contacts per block: one AVX-512 register, two AVX2, four SSE2
-
-// One block of contacts, transposed: [component][lane], so that each line is one vector register.
-struct Block {
-  double d[3][width], v[3][width], spin_i[3][width], spin_j[3][width];
-  double force[3][width], torque_i[3][width], torque_j[3][width];
-};
-
-template <class Frame> struct Access;
-
-template <> struct Access<SpaceFrame> {
-  static APF_INLINE Vec3 vector(const double (*a)[width], int l)
-  {
-    return {a[0][l], a[1][l], a[2][l]};
-  }
-  static APF_INLINE Vec3 spin(const double (*a)[width], int l) { return vector(a, l); }
-  static APF_INLINE void set(double (*a)[width], int l, const Vec3 &u)
-  {
-    a[0][l] = u.x;
-    a[1][l] = u.y;
-    a[2][l] = u.z;
-  }
-  static APF_INLINE void set_spin(double (*a)[width], int l, const Vec3 &u) { set(a, l, u); }
-  static APF_INLINE Vec3 load(double *const *h, int k) { return {h[0][k], h[1][k], h[2][k]}; }
-  static APF_INLINE void store(double *const *h, int k, const Vec3 &u)
-  {
-    h[0][k] = u.x;
-    h[1][k] = u.y;
-    h[2][k] = u.z;
-  }
-  static APF_INLINE void copy(double *to, const Vec3 &u)
-  {
-    to[0] = u.x;
-    to[1] = u.y;
-    to[2] = u.z;
-  }
-};
-
-template <> struct Access<PlaneFrame> {
-  static APF_INLINE Vec2 vector(const double (*a)[width], int l) { return {a[0][l], a[1][l]}; }
-  static APF_INLINE double spin(const double (*a)[width], int l) { return a[2][l]; }
-  static APF_INLINE void set(double (*a)[width], int l, const Vec2 &u)
-  {
-    a[0][l] = u.x;
-    a[1][l] = u.y;
-  }
-  static APF_INLINE void set_spin(double (*a)[width], int l, double u) { a[2][l] = u; }
-  static APF_INLINE double load(double *const *h, int k) { return h[0][k]; }
-  static APF_INLINE void store(double *const *h, int k, double u) { h[0][k] = u; }
-};
-
-// Where the list's arrays start, taken once per call.
-struct Arrays {
-  double *constants[ContactList::n_constants];
-  double *sliding[3], *rolling[3], *normal[3], *twisting, *overlap;
-
-  explicit Arrays(ContactList &list)
-  {
-    for (int n = 0; n < ContactList::n_constants; n++) constants[n] = list.constants[n].data();
-    for (int n = 0; n < 3; n++) {
-      sliding[n] = list.history[n].data();
-      rolling[n] = list.history[3 + n].data();
-      normal[n] = list.history[7 + n].data();
-    }
-    twisting = list.history[6].data();
-    overlap = list.overlap.data();
-  }
-
-  // spelled out, because a loop over members would go through memory and stop vectorisation
-  APF_INLINE ContactConstants at(int k) const
-  {
-    return {constants[0][k],  constants[1][k],  constants[2][k],  constants[3][k],
-            constants[4][k],  constants[5][k],  constants[6][k],  constants[7][k],
-            constants[8][k],  constants[9][k],  constants[10][k], constants[11][k],
-            constants[12][k], constants[13][k], constants[14][k], constants[15][k],
-            constants[16][k], constants[17][k], constants[18][k]};
-  }
-};
-static_assert(ContactList::n_constants == 19, "Arrays::at lists every constant");
+#if defined(__AVX512F__)
+using Real = Pack<64>;
+#elif defined(__AVX2__)
+using Real = Pack<32>;
+#else
+using Real = Pack<16>;
+#endif
 
 template <class Frame> using RowOf = std::conditional_t<Frame::planar, PlaneRow, SpaceRow>;
 
-template <class Frame>
-void gather(const ContactList &list, const RowOf<Frame> *rows, int first, int n, Block &block)
+// The bodies and kinds of a block's contacts. An incomplete block repeats its last contact.
+struct Members {
+  int i[width], j[width], kind[width];
+
+  APF_INLINE Members(const ContactList &list, int first, int n)
+  {
+    for (int l = 0; l < width; l++) {
+      const int k = first + (l < n ? l : n - 1);
+      i[l] = list.i[k];
+      j[l] = list.j[k];
+      kind[l] = list.kind[k];
+    }
+  }
+};
+
+// Constants of the block's contacts, which often are those of the block before.
+class BlockConstants {
+ public:
+  APF_INLINE const ConstantsOf<Real> &of(const KindsInUse &kinds, const int (&wanted)[width])
+  {
+    if (std::memcmp(wanted, loaded, sizeof(loaded)) != 0) load(kinds, wanted);
+    return constants;
+  }
+
+ private:
+  static constexpr int n = sizeof(ConstantsOf<double>) / sizeof(double);
+  static_assert(n % 4 == 0, "groups of four");
+  ConstantsOf<Real> constants;
+  int loaded[width] = {-1, -1, -1, -1, -1, -1, -1, -1};
+
+  __attribute__((noinline)) void load(const KindsInUse &kinds, const int (&wanted)[width])
+  {
+    const double *from[width];
+    for (int l = 0; l < width; l++)
+      from[l] = reinterpret_cast<const double *>(&kinds.constants(wanted[l]));
+    Real *to = reinterpret_cast<Real *>(&constants);
+    for (int c = 0; c < n; c += 4)
+      from_rows(
+          [&from, c](int l, int part, auto type) {
+            return apf::load<decltype(type)>(from[l] + c + part);
+          },
+          *reinterpret_cast<Real(*)[4]>(to + c));
+    std::memcpy(loaded, wanted, sizeof(loaded));
+  }
+};
+
+// ---- gather and scatter, for the layout of rows in bodies.h
+
+APF_INLINE ContactInput<PlaneFrame<Real>> gather(const PlaneRow *rows, const Members &m)
 {
-  constexpr int spin0 = 3 - RowOf<Frame>::spin_dim;
+  Real xv[4];
+  from_rows(
+      [rows, &m](int l, int c, auto type) {
+        using Part = decltype(type);
+        return load<Part>(rows[m.j[l]].x + c) - load<Part>(rows[m.i[l]].x + c);
+      },
+      xv);
+  ContactInput<PlaneFrame<Real>> in;
+  in.d = {xv[0], xv[1]};
+  in.v = {-xv[2], -xv[3]};
   for (int l = 0; l < width; l++) {
-    const int k = first + (l < n ? l : n - 1);    // an incomplete block repeats its last contact
-    const auto &i = rows[list.i[k]], &j = rows[list.j[k]];
-    for (int c = 0; c < i.dim; c++) {
-      block.d[c][l] = j.x[c] - i.x[c];
-      block.v[c][l] = i.v[c] - j.v[c];
+    in.spin_i.set_lane(l, rows[m.i[l]].omega[0]);
+    in.spin_j.set_lane(l, rows[m.j[l]].omega[0]);
+  }
+  return in;
+}
+
+APF_INLINE ContactInput<SpaceFrame<Real>> gather(const SpaceRow *rows, const Members &m)
+{
+  Real xv[4], vv[2], spin_i[4], spin_j[4];
+  from_rows(
+      [rows, &m](int l, int c, auto type) {
+        using Part = decltype(type);
+        return load<Part>(rows[m.j[l]].x + c) - load<Part>(rows[m.i[l]].x + c);
+      },
+      xv);
+  from_rows(
+      [rows, &m](int l, int c, auto type) {
+        using Part = decltype(type);
+        return load<Part>(rows[m.i[l]].v + 1 + c) - load<Part>(rows[m.j[l]].v + 1 + c);
+      },
+      vv);
+  from_rows(
+      [rows, &m](int l, int c, auto type) {
+        return load<decltype(type)>(rows[m.i[l]].omega + c);
+      },
+      spin_i);
+  from_rows(
+      [rows, &m](int l, int c, auto type) {
+        return load<decltype(type)>(rows[m.j[l]].omega + c);
+      },
+      spin_j);
+  ContactInput<SpaceFrame<Real>> in;
+  in.d = {xv[0], xv[1], xv[2]};
+  in.v = {-xv[3], vv[0], vv[1]};
+  in.spin_i = {spin_i[0], spin_i[1], spin_i[2]};
+  in.spin_j = {spin_j[0], spin_j[1], spin_j[2]};
+  return in;
+}
+
+// of the first n contacts
+template <bool torques>
+APF_INLINE void scatter(PlaneRow *rows, const Members &m, int n,
+                        const ContactOutput<PlaneFrame<Real>> &out)
+{
+  to_rows(out.force.x, out.force.y, [=, &m](int l, int, const Pair &part) {
+    if (l >= n) return;
+    add_to(rows[m.i[l]].f, part);
+    add_to(rows[m.j[l]].f, Pair(-part));
+  });
+  if constexpr (torques)
+    for (int l = 0; l < width; l++) {
+      if (l >= n) break;
+      rows[m.i[l]].torque[0] += out.torque_i.lane(l);
+      rows[m.j[l]].torque[0] += out.torque_j.lane(l);
     }
-    for (int c = 0; c < i.spin_dim; c++) {
-      block.spin_i[spin0 + c][l] = i.omega[c];
-      block.spin_j[spin0 + c][l] = j.omega[c];
+}
+
+template <bool torques>
+APF_INLINE void scatter(SpaceRow *rows, const Members &m, int n,
+                        const ContactOutput<SpaceFrame<Real>> &out)
+{
+  const auto &f = out.force, &ti = out.torque_i, &tj = out.torque_j;
+  to_rows(f.x, f.y, [=, &m](int l, int, const Pair &part) {
+    if (l >= n) return;
+    add_to(rows[m.i[l]].f, part);
+    add_to(rows[m.j[l]].f, Pair(-part));
+  });
+  if constexpr (torques) {
+    to_rows(f.z, ti.x, ti.y, ti.z, [=, &m](int l, int c, const auto &part) {
+      if (l < n) add_to(rows[m.i[l]].f + 2 + c, part);
+    });
+    to_rows(-f.z, tj.x, tj.y, tj.z, [=, &m](int l, int c, const auto &part) {
+      if (l < n) add_to(rows[m.j[l]].f + 2 + c, part);
+    });
+  } else {
+    for (int l = 0; l < width; l++) {
+      if (l >= n) break;
+      rows[m.i[l]].f[2] += f.z.lane(l);
+      rows[m.j[l]].f[2] -= f.z.lane(l);
     }
   }
 }
 
-template <class Frame, bool torques>
-void scatter(const ContactList &list, RowOf<Frame> *rows, int first, int n, const Block &block)
+// ---- histories
+
+using PlaneMemory = ContactMemory<PlaneFrame<Real>>;
+using SpaceMemory = ContactMemory<SpaceFrame<Real>>;
+
+template <bool sliding, bool twisting, bool rolling>
+APF_INLINE void recall(ContactList &list, int b, PlaneMemory &memory)
 {
-  constexpr int spin0 = 3 - RowOf<Frame>::spin_dim;
-  for (int l = 0; l < n; l++) {
-    const int k = first + l;
-    auto &i = rows[list.i[k]], &j = rows[list.j[k]];
-    for (int c = 0; c < i.dim; c++) {
-      i.f[c] += block.force[c][l];
-      j.f[c] -= block.force[c][l];
-    }
-    if constexpr (torques)
-      for (int c = 0; c < i.spin_dim; c++) {
-        i.torque[c] += block.torque_i[spin0 + c][l];
-        j.torque[c] += block.torque_j[spin0 + c][l];
-      }
-  }
+  const auto &block = list.blocks[b];
+  if constexpr (sliding) memory.sliding = Real::load(block.sliding);
+  if constexpr (rolling) memory.rolling = Real::load(block.rolling);
 }
+
+template <bool sliding, bool twisting, bool rolling>
+APF_INLINE void keep(ContactList &list, int b, const PlaneMemory &memory)
+{
+  auto &block = list.blocks[b];
+  if constexpr (sliding) memory.sliding.store(block.sliding);
+  if constexpr (rolling) memory.rolling.store(block.rolling);
+}
+
+template <bool sliding, bool twisting, bool rolling>
+APF_INLINE void recall(ContactList &list, int b, SpaceMemory &memory)
+{
+  const auto &block = list.blocks[b];
+  const auto &space = list.space_blocks[b];
+  const auto vector = [](const auto &x, const auto &y, const auto &z) {
+    return Vector3<Real>{Real::load(x), Real::load(y), Real::load(z)};
+  };
+  if constexpr (sliding) memory.sliding = vector(block.sliding, space.sliding[0], space.sliding[1]);
+  if constexpr (rolling) memory.rolling = vector(block.rolling, space.rolling[0], space.rolling[1]);
+  if constexpr (twisting) memory.twisting = Real::load(space.twisting);
+  if constexpr (sliding || rolling)
+    memory.normal = vector(space.normal[0], space.normal[1], space.normal[2]);
+}
+
+template <bool sliding, bool twisting, bool rolling>
+APF_INLINE void keep(ContactList &list, int b, const SpaceMemory &memory)
+{
+  auto &block = list.blocks[b];
+  auto &space = list.space_blocks[b];
+  const auto store = [](const Vector3<Real> &u, auto &x, auto &y, auto &z) {
+    u.x.store(x);
+    u.y.store(y);
+    u.z.store(z);
+  };
+  if constexpr (sliding) store(memory.sliding, block.sliding, space.sliding[0], space.sliding[1]);
+  if constexpr (rolling) store(memory.rolling, block.rolling, space.rolling[0], space.rolling[1]);
+  if constexpr (twisting) memory.twisting.store(space.twisting);
+  if constexpr (sliding || rolling)
+    store(memory.normal, space.normal[0], space.normal[1], space.normal[2]);
+}
+
+// ---- parts
+
+struct Lane {
+  int l;
+  APF_INLINE double operator()(const Real &a) const { return a.lane(l); }
+  void copy(double *to, const Vector2<Real> &u) const
+  {
+    to[0] = u.x.lane(l);
+    to[1] = u.y.lane(l);
+  }
+  void copy(double *to, const Vector3<Real> &u) const
+  {
+    to[0] = u.x.lane(l);
+    to[1] = u.y.lane(l);
+    to[2] = u.z.lane(l);
+  }
+};
 
 template <class Frame>
-ContactParts report(const ContactConstants &c, const Arrays &arrays, const Block &block, int k,
-                    int l, const ContactOutput<Frame> &out)
+ContactParts report(const ContactList &list, int k, const ContactInput<Frame> &in,
+                    const ContactOutput<Frame> &out)
 {
+  const Lane lane{k % width};
+  const ContactConstants c = list.constants_of(k);
+  const ContactHistory h = list.history_of(k);
+  const double s = lane(out.s), s2 = s * s, kt = c.kt * s2;
   ContactParts p{};
-  p.overlap = out.overlap;
-  p.contact_radius = c.R * out.s * out.s;
-  p.elastic = out.elastic;
-  p.damping = out.damping;
-  p.twisting = out.twisting;
-  const double s3 = out.s * out.s * out.s;
-  const double kt = c.kt * out.s * out.s;
+  p.overlap = lane(out.overlap);
+  p.contact_radius = c.R * s2;
+  p.elastic = lane(out.elastic);
+  p.damping = lane(out.damping);
+  p.twisting = lane(out.twisting);
+  lane.copy(p.force, out.force);
   double sliding2, rolling2;
   if constexpr (Frame::planar) {
-    const Vec2 d{block.d[0][l], block.d[1][l]};
-    const Vec2 t = Frame{(1.0 / std::sqrt(dot(d, d))) * d}.force(out.sliding);
-    p.sliding[0] = t.x;
-    p.sliding[1] = t.y;
-    p.rolling[2] = out.rolling;
-    p.force[0] = out.force.x;
-    p.force[1] = out.force.y;
-    sliding2 = norm2(arrays.sliding[0][k]);
-    rolling2 = norm2(arrays.rolling[0][k]);
+    const Frame frame{(1.0 / sqrt(dot(in.d, in.d))) * in.d};
+    lane.copy(p.sliding, frame.force(out.sliding));
+    p.rolling[2] = lane(out.rolling);
+    sliding2 = h.sliding[0] * h.sliding[0];
+    rolling2 = h.rolling[0] * h.rolling[0];
   } else {
-    Access<Frame>::copy(p.sliding, out.sliding);
-    Access<Frame>::copy(p.rolling, out.rolling);
-    Access<Frame>::copy(p.force, out.force);
-    sliding2 = norm2(Access<Frame>::load(arrays.sliding, k));
-    rolling2 = norm2(Access<Frame>::load(arrays.rolling, k));
+    lane.copy(p.sliding, out.sliding);
+    lane.copy(p.rolling, out.rolling);
+    sliding2 = norm2(Vec3{h.sliding[0], h.sliding[1], h.sliding[2]});
+    rolling2 = norm2(Vec3{h.rolling[0], h.rolling[1], h.rolling[2]});
   }
-  if (out.overlap >= c.break_overlap) {
-    const double twist2 = arrays.twisting[k] * arrays.twisting[k];
-    p.elastic_energy = JKR{c.R, c.K, c.neck}.energy(out.s);
+  if (!list.ended(k)) {
+    p.elastic_energy = JKR{c.R, c.K, c.neck}.energy(s);
     p.sliding_energy = 0.5 * kt * sliding2;
-    p.rolling_energy = 0.5 * c.roll_k * s3 * rolling2 * c.inv_R;
-    p.twisting_energy = 0.25 * kt * p.contact_radius * p.contact_radius * twist2;
+    p.rolling_energy = 0.5 * c.roll_k * s2 * s * rolling2 * c.inv_R;
+    p.twisting_energy = 0.25 * kt * p.contact_radius * p.contact_radius * h.twisting * h.twisting;
   }
   return p;
 }
 
-// Everything that belongs to one lane. It must not share local structures with the loop around it:
-// "omp simd" would put those into memory, one per lane, and nothing would become vector code.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling, bool reports>
-APF_INLINE void lane(const Arrays &arrays, Block &block, int k, int l, ContactTimes times,
-                     ContactParts *parts)
+APF_INLINE int all_blocks(ContactList &list, Bodies &bodies, ContactTimes times,
+                          ContactParts *parts)
 {
-  using A = Access<Frame>;
-  const ContactInput<Frame> in{A::vector(block.d, l), A::vector(block.v, l),
-                               A::spin(block.spin_i, l), A::spin(block.spin_j, l)};
-  ContactMemory<Frame> memory;
-  if constexpr (sliding) memory.sliding = A::load(arrays.sliding, k);
-  if constexpr (rolling) memory.rolling = A::load(arrays.rolling, k);
-  if constexpr (twisting && !Frame::planar) memory.twisting = arrays.twisting[k];
-  if constexpr ((sliding || rolling) && !Frame::planar)
-    memory.normal = Access<SpaceFrame>::load(arrays.normal, k);
+  auto *rows = bodies.rows<RowOf<Frame>>();
+  const int size = list.size();
+  BlockConstants constants;
+  Real ended = 0.0;
+  for (int first = 0; first < size; first += width) {
+    const int n = (size - first < width) ? size - first : width, b = first / width;
+    const Members members(list, first, n);
+    auto &block = list.blocks[b];
+    const ConstantsOf<Real> &c = constants.of(list.kinds, members.kind);
+    ContactMemory<Frame> memory;
+    recall<sliding, twisting, rolling>(list, b, memory);
 
-  const auto out =
-      contact_law<Frame, adhesion, sliding, twisting, rolling>(arrays.at(k), in, times, memory);
+    ContactInput<Frame> in = gather(rows, members);
+    in.crowd_mass = Real::load(block.crowd_mass);
+    if constexpr (rolling) in.crowd_roll = Real::load(block.crowd_roll);
+    const auto out = contact_law<Frame, adhesion, sliding, twisting, rolling>(c, in, times, memory);
+    scatter<sliding || rolling>(rows, members, n, out);
 
-  if (!reports || times.advance > 0.0) {    // a look at the parts must not change the run
-    if constexpr (sliding) A::store(arrays.sliding, k, memory.sliding);
-    if constexpr (rolling) A::store(arrays.rolling, k, memory.rolling);
-    if constexpr (twisting && !Frame::planar) arrays.twisting[k] = memory.twisting;
-    if constexpr ((sliding || rolling) && !Frame::planar)
-      Access<SpaceFrame>::store(arrays.normal, k, memory.normal);
+    if (!reports || times.advance > 0.0)    // a look at the parts must not change the run
+      keep<sliding, twisting, rolling>(list, b, memory);
+    out.overlap.store(block.overlap);
+    ended = ended + select(out.overlap < c.break_overlap, Real(1.0), Real(0.0));
+    if constexpr (reports)
+      for (int l = 0; l < n; l++) parts[first + l] = report<Frame>(list, first + l, in, out);
   }
-  arrays.overlap[k] = out.overlap;
-  A::set(block.force, l, out.force);
-  A::set_spin(block.torque_i, l, out.torque_i);
-  A::set_spin(block.torque_j, l, out.torque_j);
-  if constexpr (reports) parts[k] = report<Frame>(arrays.at(k), arrays, block, k, l, out);
+  double sum = 0.0;
+  for (int l = 0; l < width; l++) sum += ended.lane(l);
+  // the last contact stood also in the lanes behind it
+  const int repeated = static_cast<int>(list.blocks.size()) * width - size;
+  return static_cast<int>(sum) - (repeated && list.ended(size - 1) ? repeated : 0);
 }
 
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
 int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactParts *parts)
 {
-  auto *rows = bodies.rows<RowOf<Frame>>();
-  const Arrays arrays(list);
-  Block block;
-  const int size = list.size();
-  for (int first = 0; first < size; first += width) {
-    const int n = (size - first < width) ? size - first : width;
-    gather<Frame>(list, rows, first, n, block);
-    if (n == width && !parts) {
-#pragma omp simd
-      for (int l = 0; l < width; l++)
-        lane<Frame, adhesion, sliding, twisting, rolling, false>(arrays, block, first + l, l, times,
-                                                                 nullptr);
-    } else if (!parts) {
-      for (int l = 0; l < n; l++)
-        lane<Frame, adhesion, sliding, twisting, rolling, false>(arrays, block, first + l, l, times,
-                                                                 nullptr);
-    } else {
-      for (int l = 0; l < n; l++)
-        lane<Frame, adhesion, sliding, twisting, rolling, true>(arrays, block, first + l, l, times,
-                                                                parts);
-    }
-    scatter<Frame, sliding || twisting || rolling>(list, rows, first, n, block);
-  }
-  int ended = 0;
-  for (int k = 0; k < size; k++) ended += list.ended(k);
-  return ended;
+  return parts
+      ? all_blocks<Frame, adhesion, sliding, twisting, rolling, true>(list, bodies, times, parts)
+      : all_blocks<Frame, adhesion, sliding, twisting, rolling, false>(list, bodies, times,
+                                                                       nullptr);
 }
 
 template <class Frame, bool adhesion, bool sliding, bool twisting>
@@ -262,7 +348,8 @@ template <class Frame> ContactKernel with_adhesion(const KernelChoice &c)
 
 ContactKernel contact_kernel(const KernelChoice &choice)
 {
-  return choice.planar ? with_adhesion<PlaneFrame>(choice) : with_adhesion<SpaceFrame>(choice);
+  return choice.planar ? with_adhesion<PlaneFrame<Real>>(choice)
+                       : with_adhesion<SpaceFrame<Real>>(choice);
 }
 
 }    // namespace apf::APF_ISA

@@ -1,5 +1,5 @@
-// Runs the contact law over a ContactList: gathers blocks of contacts into small arrays, lets the
-// compiler turn the law into vector instructions, scatters forces.
+// Runs the contact law over a ContactList, a block of contacts at a time: gathers what the law needs
+// of their bodies into vector registers, one contact per lane, and scatters forces.
 
 #ifndef APF_CONTACT_KERNEL_H
 #define APF_CONTACT_KERNEL_H
@@ -34,13 +34,15 @@ using ContactKernel = int (*)(ContactList &list, Bodies &bodies, ContactTimes ti
 // removes them (list.ended).
 ContactKernel contact_kernel(const KernelChoice &choice);
 
-// The same, built for one instruction set; contact_kernel() takes the best this processor has.
-namespace baseline {
-  ContactKernel contact_kernel(const KernelChoice &choice);
-}
-namespace avx2 {
-  ContactKernel contact_kernel(const KernelChoice &choice);
-}
+// The same source built for one instruction set.
+struct KernelBuild {
+  const char *name;
+  ContactKernel (*kernel)(const KernelChoice &choice);
+};
+
+// The builds that this processor can run, from the most modest to the best. contact_kernel() takes
+// the best, or the one that the environment variable APF_ISA names.
+const std::vector<KernelBuild> &kernel_builds();
 
 }    // namespace apf
 

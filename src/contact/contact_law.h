@@ -22,72 +22,97 @@ struct Parts {
   bool adhesion, sliding, twisting, rolling;
 };
 
-struct SpaceFrame {
-  using Vector = Vec3;     // positions, velocities, forces
-  using Spin = Vec3;       // angular velocities, torques
-  using Tangent = Vec3;    // vectors in the contact plane
+template <class R> struct SpaceFrame {
+  using Real = R;
+  using Vector = Vector3<Real>;     // positions, velocities, forces
+  using Spin = Vector3<Real>;       // angular velocities, torques
+  using Tangent = Vector3<Real>;    // vectors in the contact plane
   static constexpr bool planar = false;
 
-  Vec3 n;
+  Vector n;
 
-  APF_INLINE Tangent slip(const Vec3 &v, double vn) const { return v - vn * n; }
+  APF_INLINE Tangent slip(const Vector &v, const Real &vn) const { return v - vn * n; }
   APF_INLINE Tangent slip_of_spin(const Spin &spin) const { return cross(spin, n); }
-  // t of another contact plane, with normal m, by the smallest rotation from m to n
-  APF_INLINE Tangent turned(const Vec3 &t, const Vec3 &m) const
-  {
-    return t - (dot(t, n) / (1.0 + dot(n, m))) * (n + m);
-  }
-  APF_INLINE Vec3 force(const Tangent &t) const { return t; }
+  APF_INLINE Vector force(const Tangent &t) const { return t; }
   APF_INLINE Spin torque_of_force(const Tangent &t) const { return cross(n, t); }
 };
 
-struct PlaneFrame {
-  using Vector = Vec2;
-  using Spin = double;       // about z
-  using Tangent = double;    // along (-n_y, n_x)
+template <class R> struct PlaneFrame {
+  using Real = R;
+  using Vector = Vector2<Real>;
+  using Spin = Real;       // about z
+  using Tangent = Real;    // along (-n_y, n_x)
   static constexpr bool planar = true;
 
-  Vec2 n;
+  Vector n;
 
-  APF_INLINE Tangent slip(const Vec2 &v, double) const { return n.x * v.y - n.y * v.x; }
-  APF_INLINE Tangent slip_of_spin(Spin spin) const { return spin; }
-  APF_INLINE Tangent turned(Tangent t, const Vec2 &) const { return t; }
-  APF_INLINE Vec2 force(Tangent t) const { return {-n.y * t, n.x * t}; }
-  APF_INLINE Spin torque_of_force(Tangent t) const { return t; }
+  APF_INLINE Tangent slip(const Vector &v, const Real &) const { return n.x * v.y - n.y * v.x; }
+  APF_INLINE Tangent slip_of_spin(const Spin &spin) const { return spin; }
+  APF_INLINE Vector force(const Tangent &t) const { return {-n.y * t, n.x * t}; }
+  APF_INLINE Spin torque_of_force(const Tangent &t) const { return t; }
 };
 
 template <class Frame> struct ContactInput {
-  typename Frame::Vector d;               // x_j - x_i
-  typename Frame::Vector v;               // v_i - v_j
-  typename Frame::Spin spin_i, spin_j;    // angular velocities
+  typename Frame::Vector d;                       // x_j - x_i
+  typename Frame::Vector v;                       // v_i - v_j
+  typename Frame::Spin spin_i, spin_j;            // angular velocities
+  typename Frame::Real crowd_mass, crowd_roll;    // see ContactConstants
 };
 
+// Only what the sub-models use is set.
 template <class Frame> struct ContactMemory {
-  typename Frame::Tangent sliding{}, rolling{};
-  double twisting = 0.0;
-  typename Frame::Vector normal{};    // not used in the plane
+  typename Frame::Tangent sliding, rolling;
+  typename Frame::Real twisting;
+  typename Frame::Vector normal;    // not used in the plane
 };
 
 template <class Frame> struct ContactOutput {
-  typename Frame::Vector force{};    // on i; j gets the opposite
+  using Real = typename Frame::Real;
+  typename Frame::Vector force;    // on i; j gets the opposite
   typename Frame::Spin torque_i{}, torque_j{};
-  double overlap = 0.0;
+  Real overlap;
   // for ContactParts only; the compiler drops what nobody reads
-  double s = 0.0, elastic = 0.0, damping = 0.0, twisting = 0.0;
+  Real s, elastic, damping, twisting{};
   typename Frame::Tangent sliding{};
   typename Frame::Spin rolling{};
 };
 
-// Carries a vector of the contact plane along with the pair: the smallest rotation that takes the
-// last normal to the present one, then the mean spin of the two bodies about it. Exact for finite
-// steps. n, last: normals; scale = 1 / (1 + n . last); cosine, sine of the spin angle.
-APF_INLINE Vec3 carried(const Vec3 &xi, const Vec3 &n, const Vec3 &last, double scale,
-                        double cosine, double sine)
-{
-  const Vec3 tilted = xi - (dot(n, xi) * scale) * (n + last);
-  const Vec3 tangent = tilted - dot(n, tilted) * n;    // rounding only
-  return cosine * tangent + sine * cross(n, tangent);
-}
+// How vectors of the contact plane follow the pair through a step.
+template <class Frame> struct Turning {
+  using Tangent = typename Frame::Tangent;
+  // the tangent itself turns
+  APF_INLINE Tangent slip(const Tangent &t) const { return t; }
+  APF_INLINE Tangent memory(const Tangent &t) const { return t; }
+};
+
+template <class Real> struct Turning<SpaceFrame<Real>> {
+  using Vector = Vector3<Real>;
+  Vector n, from_mid, from_last;    // normal now; its sum with those of mid-step and of last step
+  Real per_mid, per_last;           // 1 / (1 + product of the two normals)
+  Real cosine, sine;                // of the mean spin about the normal
+
+  // angle: of that spin
+  APF_INLINE Turning(const Vector &n, const Vector &mid, const Vector &last, const Real &angle) :
+      n(n), from_mid(n + mid), from_last(n + last), per_mid(1.0 + dot(n, mid)),
+      per_last(1.0 + dot(n, last))
+  {
+    const Real q = 0.25 * angle * angle;    // Cayley form: a rotation for any angle
+    Real inv = 1.0 + q;
+    invert(per_mid, per_last, inv);
+    cosine = (1.0 - q) * inv;
+    sine = angle * inv;
+  }
+  // a slip velocity of mid-step, by the smallest rotation to the present normal
+  APF_INLINE Vector slip(const Vector &t) const { return t - (dot(n, t) * per_mid) * from_mid; }
+  // a displacement of the last step: the smallest rotation to the present normal, then the mean
+  // spin of the two bodies about it. Exact for finite steps.
+  APF_INLINE Vector memory(const Vector &xi) const
+  {
+    const Vector tilted = xi - (dot(n, xi) * per_last) * from_last;
+    const Vector tangent = tilted - dot(n, tilted) * n;    // rounding only
+    return cosine * tangent + sine * cross(n, tangent);
+  }
+};
 
 struct ContactTimes {
   double
@@ -100,109 +125,120 @@ struct ContactTimes {
 // The largest dashpot constant that leapfrog steps bear beside a spring k: stable while
 // eta dt/m < 2 - k dt^2 / (2 m), with m the mass that bodies with many contacts leave to one of
 // them. It binds where a particle has several contacts and the step is large.
-APF_INLINE double stable_dashpot(double k, double m, double step)
+template <class Real>
+APF_INLINE Real stable_dashpot(const Real &eta, const Real &k, const Real &m, double step)
 {
-  const double most = 0.9 * (2.0 * m / step - 0.5 * k * step);
-  return most > 0.0 ? most : 0.0;
-}
-
-APF_INLINE double smaller(double a, double b)
-{
-  return a < b ? a : b;
+  const double of_mass = 0.9 * 2.0 / step, of_spring = 0.9 * 0.5 * step;
+  return smaller(eta, larger(of_mass * m - of_spring * k, 0.0));
 }
 
 // The whole law.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-APF_INLINE ContactOutput<Frame> contact_law(const ContactConstants &c,
+APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Real> &c,
                                             const ContactInput<Frame> &in, ContactTimes times,
                                             ContactMemory<Frame> &memory)
 {
+  using std::sqrt;
+  using Real = typename Frame::Real;
+  using Tangent = typename Frame::Tangent;
   ContactOutput<Frame> out;
-  const double distance = std::sqrt(dot(in.d, in.d));
-  const double inv_distance = 1.0 / distance;
-  const Frame frame{inv_distance * in.d};
-  const double overlap = c.radius_sum - distance;
-  const double closed = (overlap < c.break_overlap) ? 0.0 : 1.0;
+  const auto d_mid =
+      in.d + (times.behind * c.turning) * in.v;    // when the bodies had the velocity v
+  const Real distance = sqrt(dot(in.d, in.d));
+  Real inv_distance = distance, inv_mid = sqrt(dot(d_mid, d_mid));
+  invert(inv_distance, inv_mid);
+  const Frame frame{inv_distance * in.d}, mid{inv_mid * d_mid};
+  const Real overlap = c.radius_sum - distance;
+  const Real closed = select(overlap < c.break_overlap, Real(0.0), Real(1.0));
 
   // normal
-  double s;
-  if constexpr (adhesion) {
+  Real s;
+  if constexpr (adhesion)
     s = jkr_root(overlap, c.inv_R, c.neck);
-  } else {
-    const double x = overlap * c.inv_R;
-    s = std::sqrt(std::sqrt(x > 0.0 ? x : 0.0));
-  }
-  const double s2 = s * s, s3 = s2 * s;
-  const double neck3 = adhesion ? c.neck * c.neck * c.neck : 0.0;
-  const double elastic = closed * c.K * s3 * (s3 - 6.0 * neck3);
-  const double eta = closed * c.eta * s;
-  // the normal when the bodies had the velocity v
-  const auto d_mid = in.d + (times.behind * c.turning) * in.v;
-  const Frame mid{(1.0 / std::sqrt(dot(d_mid, d_mid))) * d_mid};
-  const double vn = dot(in.v, mid.n);
-  const double kn = c.K * c.inv_R * s2;
-  const double damping = smaller(eta, stable_dashpot(kn, c.crowd_mass, times.step)) * vn;
+  else
+    s = sqrt(sqrt(larger(overlap * c.inv_R, 1.0e-60)));
+  const Real s2 = s * s, s3 = s2 * s;
+  const Real neck3 = adhesion ? c.neck * c.neck * c.neck : Real(0.0);
+  const Real elastic = closed * c.K * s3 * (s3 - 6.0 * neck3);
+  const Real eta = closed * c.eta * s;
+  const Real vn = dot(in.v, mid.n);
+  const Real kn = c.K * c.inv_R * s2;
+  const Real damping = stable_dashpot(eta, kn, in.crowd_mass, times.step) * vn;
 
   out.overlap = overlap;
   out.s = s;
   out.elastic = elastic;
   out.damping = damping;
   out.force = (-(elastic + damping)) * frame.n;
+  if constexpr (!sliding && !rolling) return out;
 
-  if constexpr (!Frame::planar && (sliding || rolling)) {
-    const Vec3 n = frame.n, old = memory.normal;
-    const double known = norm2(old) > 0.5 ? 1.0 : 0.0;    // 0 in the contact's first step
-    const Vec3 last = known * old + (1.0 - known) * n;
-    const double scale = 1.0 / (1.0 + dot(n, last));
-    const double angle = 0.5 * times.advance * dot(in.spin_i + in.spin_j, n);
-    const double q = 0.25 * angle * angle;    // Cayley form: a rotation for any angle
-    const double inv = 1.0 / (1.0 + q);
-    const double cosine = (1.0 - q) * inv, sine = angle * inv;
-    if constexpr (sliding) memory.sliding = carried(memory.sliding, n, last, scale, cosine, sine);
-    if constexpr (rolling) memory.rolling = carried(memory.rolling, n, last, scale, cosine, sine);
-    memory.normal = frame.n;
-  }
+  Turning<Frame> turning = [&] {
+    if constexpr (Frame::planar) {
+      return Turning<Frame>();
+    } else {
+      // no normal in the contact's first step
+      const auto last = select(norm2(memory.normal) < 0.5, frame.n, memory.normal);
+      memory.normal = frame.n;
+      const Real angle = 0.5 * times.advance * dot(in.spin_i + in.spin_j, frame.n);
+      return Turning<Frame>(frame.n, mid.n, last, angle);
+    }
+  }();
 
   // levers to the middle of the overlap (at a wall: to the wall): they add up to the distance, so
   // the pair's angular momentum is kept and a rigid rotation slides nothing
-  const double arm_i = c.radius_i - c.arm_share * overlap;
-  const double arm_j = distance - arm_i;
+  const Real arm_i = c.radius_i - c.arm_share * overlap;
+  const Real arm_j = distance - arm_i;
 
-  if constexpr (sliding || twisting) {
-    const double kt = c.kt * s2 + 1.0e-300;
-    // a force at the surface of a sphere moves that surface as if it had 2/7 of the mass
-    const double eta_t = smaller(eta, stable_dashpot(kt, (2.0 / 7.0) * c.crowd_mass, times.step));
-    const double limit = closed * c.mu * std::fabs(elastic + c.adhesion);
-    if constexpr (sliding) {
-      const auto slip = frame.turned(
-          mid.slip(in.v, vn) + mid.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j), mid.n);
-      const auto force = slider_force(kt, eta_t, limit, slip, times.advance, memory.sliding);
-      out.sliding = force;
-      out.force = out.force + frame.force(force);
-      const auto torque = frame.torque_of_force(force);
-      out.torque_i = arm_i * torque;
-      out.torque_j = arm_j * torque;
-    }
-    if constexpr (twisting && !Frame::planar) {
-      const double a = c.R * s2;
-      const double share = 0.5 * a * a;    // eq (31)
-      const double twist_rate = dot(in.spin_i - in.spin_j, mid.n);
-      const double torque =
-          slider_force(share * kt + 1.0e-300, share * eta_t, c.twist * (2.0 / 3.0) * a * limit,
-                       twist_rate, times.advance, memory.twisting);
-      out.twisting = torque;
-      out.torque_i = out.torque_i + torque * frame.n;
-      out.torque_j = out.torque_j - torque * frame.n;
-    }
+  // springs, dashpots and sliders
+  const Real kt = c.kt * s2;
+  // a force at the surface of a sphere moves that surface as if it had 2/7 of the mass
+  const Real eta_t = stable_dashpot(eta, kt, (2.0 / 7.0) * in.crowd_mass, times.step);
+  const Real slip_limit = closed * c.mu * magnitude(elastic + c.adhesion);
+  const auto slip =
+      turning.slip(mid.slip(in.v, vn) + mid.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j));
+  const Slider<Real, Tangent> slide(kt, eta_t, slip, times.advance, turning.memory(memory.sliding));
+
+  const Real roll_k = c.roll_k * s3;
+  const Real roll_eta =
+      stable_dashpot(closed * c.roll_eta * s * sqrt(s), roll_k, in.crowd_roll, times.step);
+  const auto v_roll = (-c.R) * turning.slip(mid.slip_of_spin(in.spin_i - in.spin_j));
+  const Slider<Real, Tangent> roll(roll_k, roll_eta, v_roll, times.advance,
+                                   turning.memory(memory.rolling));
+
+  Real inv_s = s, inv_slide = slide.size, inv_roll = roll.size;
+  if constexpr (Frame::planar)
+    inv_s = 1.0 / s;
+  else if constexpr (sliding && rolling)
+    invert(inv_s, inv_slide, inv_roll);
+  else if constexpr (sliding)
+    invert(inv_s, inv_slide);
+  else
+    invert(inv_s, inv_roll);
+  const Real inv_s2 = inv_s * inv_s;
+
+  if constexpr (sliding) {
+    const auto force = slide.force(slip_limit, inv_slide, c.inv_kt * inv_s2, memory.sliding);
+    out.sliding = force;
+    out.force = out.force + frame.force(force);
+    const auto torque = frame.torque_of_force(force);
+    out.torque_i = arm_i * torque;
+    out.torque_j = arm_j * torque;
   }
-
+  if constexpr (twisting && !Frame::planar) {
+    const Real a = c.R * s2, inv_a = c.inv_R * inv_s2;
+    const Real share = 0.5 * a * a;    // eq (31)
+    const Real twist_rate = dot(in.spin_i - in.spin_j, mid.n);
+    const Slider<Real, Real> twist(share * kt, share * eta_t, twist_rate, times.advance,
+                                   memory.twisting);
+    const Real torque = twist.force(c.twist * (2.0 / 3.0) * a * slip_limit, 1.0,
+                                    2.0 * inv_a * inv_a * c.inv_kt * inv_s2, memory.twisting);
+    out.twisting = torque;
+    out.torque_i = out.torque_i + torque * frame.n;
+    out.torque_j = out.torque_j - torque * frame.n;
+  }
   if constexpr (rolling) {
-    const double k = c.roll_k * s3 + 1.0e-300;
-    const double limit = closed * c.roll_k * s3 * c.roll_limit;
-    const auto v_roll = (-c.R) * frame.turned(mid.slip_of_spin(in.spin_i - in.spin_j), mid.n);
-    const double eta_r = smaller(closed * c.roll_eta * s * std::sqrt(s),
-                                 stable_dashpot(k, c.crowd_roll, times.step));
-    const auto moment = slider_force(k, eta_r, limit, v_roll, times.advance, memory.rolling);
+    const Real limit = closed * roll_k * c.roll_limit;
+    const auto moment = roll.force(limit, inv_roll, c.inv_roll_k * inv_s2 * inv_s, memory.rolling);
     out.rolling = -frame.torque_of_force(moment);    // moment x n, eq (15)
     out.torque_i = out.torque_i + out.rolling;
     out.torque_j = out.torque_j - out.rolling;

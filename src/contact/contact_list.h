@@ -1,4 +1,7 @@
-// Contacts that are closed now: a structure of arrays, one entry per contact.
+// Contacts that are closed now, in blocks for vector code.
+//
+// Constants are kept once for all contacts of a kind, and what a step changes in blocks of eight
+// contacts, so that the kernel reads few bytes in few streams.
 //
 // Bodies are rows of the arrays that the kernel is given (Bodies, contact_kernel.h). Order has no
 // meaning: an ended contact is replaced by the last one. The list knows nothing of neighbour lists,
@@ -10,8 +13,7 @@
 #include "bodies.h"
 #include "contact_kind.h"
 
-#include <array>
-#include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace apf {
@@ -55,57 +57,154 @@ struct ContactParts {
   double twisting_energy;    // of the twisting spring                             [energy]
 };
 
+// The different kinds among the contacts of a list, counted. Most lists have few kinds; a kind may
+// be in here twice.
+class KindsInUse {
+ public:
+  const ContactKind &operator[](int n) const { return entries[n].kind; }
+  const ContactConstants &constants(int n) const { return entries[n].kind.constants; }
+
+  // number of the kind, which gets one contact more
+  int use(const ContactKind &kind)
+  {
+    int &n = recent[hash(kind) % recent.size()];
+    if (n >= static_cast<int>(entries.size()) || !entries[n].contacts ||
+        !same(entries[n].kind, kind))
+      n = place(kind);
+    entries[n].contacts++;
+    return n;
+  }
+  void release(int n)
+  {
+    if (--entries[n].contacts == 0) free.push_back(n);
+  }
+  void clear()
+  {
+    entries.clear();
+    free.clear();
+  }
+  double memory_usage() const    // [bytes]
+  {
+    return entries.capacity() * sizeof(Entry) + (free.capacity() + recent.size()) * sizeof(int);
+  }
+
+ private:
+  struct Entry {
+    ContactKind kind;
+    int contacts;
+  };
+  std::vector<Entry> entries;
+  std::vector<int> free;                               // entries without contacts
+  std::vector<int> recent = std::vector<int>(1024);    // by hash: where to look for a kind first
+
+  static bool same(const ContactKind &a, const ContactKind &b)
+  {
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+  }
+  static uint64_t hash(const ContactKind &kind)
+  {
+    const ContactConstants &c = kind.constants;
+    uint64_t h = 0, bits;
+    for (const double value : {c.radius_sum, c.radius_i, c.K, c.eta, c.mu, c.roll_eta}) {
+      std::memcpy(&bits, &value, sizeof(bits));
+      h = (h ^ bits) * 0x9E3779B97F4A7C15ull;
+      h ^= h >> 29;
+    }
+    return h;
+  }
+  int place(const ContactKind &kind)
+  {
+    if (free.empty()) {
+      entries.push_back({kind, 0});
+      return static_cast<int>(entries.size()) - 1;
+    }
+    const int n = free.back();
+    free.pop_back();
+    entries[n].kind = kind;
+    return n;
+  }
+};
+
 class ContactList {
  public:
-  static constexpr int n_constants = sizeof(ContactConstants) / sizeof(double);
+  static constexpr int width = 8;    // contacts of a block
+  using Lanes = double[width];
 
-  std::vector<int> i, j;                                            // rows of the two bodies
-  std::array<std::vector<double>, n_constants> constants;           // ContactConstants
-  std::array<std::vector<double>, ContactHistory::size> history;    // ContactHistory
-  std::vector<double> overlap;                                      // at the last update
+  // what a step reads and writes of all contacts, and of those in space alone
+  struct alignas(64) Block {
+    Lanes overlap;                   // at the last update
+    Lanes crowd_mass, crowd_roll;    // of ContactConstants
+    Lanes sliding, rolling;          // [0] of ContactHistory
+  };
+  struct alignas(64) SpaceBlock {
+    Lanes sliding[2], rolling[2];    // [1], [2] of ContactHistory
+    Lanes twisting, normal[3];
+  };
+
+  std::vector<int> i, j;      // rows of the two bodies
   std::vector<int> source;    // caller's mark: candidate or wall the contact came from
-  std::vector<StiffestMode> mode;
+  std::vector<int> kind;      // of `kinds`
+  KindsInUse kinds;
+  std::vector<Block> blocks;
+  std::vector<SpaceBlock> space_blocks;
 
   int size() const { return static_cast<int>(i.size()); }
 
-  int add(int body_i, int body_j, int mark, const ContactKind &kind, const ContactHistory &h)
+  int add(int body_i, int body_j, int mark, const ContactKind &kind_of, const ContactHistory &h)
   {
+    const int k = size();
     i.push_back(body_i);
     j.push_back(body_j);
     source.push_back(mark);
-    mode.push_back(kind.mode);
-    overlap.push_back(0.0);
-    const double *value = reinterpret_cast<const double *>(&kind.constants);
-    for (int n = 0; n < n_constants; n++) constants[n].push_back(value[n]);
-    value = reinterpret_cast<const double *>(&h);
-    for (int n = 0; n < ContactHistory::size; n++) history[n].push_back(value[n]);
-    return size() - 1;
+    ContactKind alone = kind_of;
+    alone.constants.crowd_mass = alone.constants.crowd_roll = 0.0;
+    kind.push_back(kinds.use(alone));
+    if (k % width == 0) {
+      blocks.emplace_back();
+      space_blocks.emplace_back();
+    }
+    blocks[k / width].overlap[k % width] = 0.0;
+    set_crowding(k, kind_of.constants.crowd_mass, kind_of.constants.crowd_roll);
+    set_history(k, h);
+    return k;
   }
 
   void remove(int k)
   {
-    for_each_array([k](auto &array) {
-      array[k] = array.back();
-      array.pop_back();
-    });
+    const int last = size() - 1;
+    kinds.release(kind[k]);
+    for (auto *array : {&i, &j, &source, &kind}) {
+      (*array)[k] = array->back();
+      array->pop_back();
+    }
+    Block &block = blocks[k / width];
+    const Block &last_block = blocks[last / width];
+    block.overlap[k % width] = last_block.overlap[last % width];
+    set_crowding(k, last_block.crowd_mass[last % width], last_block.crowd_roll[last % width]);
+    set_history(k, history_of(last));
+    if (last % width == 0) {
+      blocks.pop_back();
+      space_blocks.pop_back();
+    }
   }
 
   void clear()
   {
-    for_each_array([](auto &array) {
-      array.clear();
-    });
+    for (auto *array : {&i, &j, &source, &kind}) array->clear();
+    kinds.clear();
+    blocks.clear();
+    space_blocks.clear();
   }
 
   // what the springs of normal and sliding hold above their least energy
   double energy_above_rest(int k) const
   {
-    const auto c = constants_of(k);
+    const auto &c = kinds.constants(kind[k]);
     const JKR normal{c.R, c.K, c.neck};
-    const double s = jkr_root(overlap[k], c.inv_R, c.neck);
+    const double s = jkr_root(overlap(k), c.inv_R, c.neck);
     const double least = normal.energy(std::cbrt(6.0) * c.neck);    // where the force is 0
     double sliding2 = 0.0;
-    for (int n = 0; n < 3; n++) sliding2 += history[n][k] * history[n][k];
+    for (const double component : history_of(k).sliding) sliding2 += component * component;
     return normal.energy(s) - least + 0.5 * c.kt * s * s * sliding2;
   }
 
@@ -114,78 +213,88 @@ class ContactList {
   template <class Row, class Acceleration>
   void find_stiffest(const Row *rows, Stiffest &stiffest, Acceleration acceleration) const
   {
-    const auto &radius_sum = constants[offsetof(ContactConstants, radius_sum) / sizeof(double)];
-    const auto &radius_i = constants[offsetof(ContactConstants, radius_i) / sizeof(double)];
     const bool adaptive = stiffest.rule.tolerance > 0.0;
     for (int k = 0; k < size(); k++) {
       double speed2 = 0.0;
       if (adaptive) {
-        const double ri = radius_i[k], rj = radius_sum[k] - ri;
-        speed2 = stiffest.fastest2(contact_speed2(rows[i[k]], rows[j[k]], ri, rj),
-                                   energy_above_rest(k) / mode[k].mass, acceleration(k));
+        const auto &c = kinds.constants(kind[k]);
+        speed2 = stiffest.fastest2(
+            contact_speed2(rows[i[k]], rows[j[k]], c.radius_i, c.radius_sum - c.radius_i),
+            energy_above_rest(k) / mode(k).mass, acceleration(k));
       }
-      stiffest.include(mode[k], overlap[k], speed2);
+      stiffest.include(mode(k), overlap(k), speed2);
     }
   }
 
+  const StiffestMode &mode(int k) const { return kinds[kind[k]].mode; }
+
+  double overlap(int k) const
+  {
+    return blocks[k / width].overlap[k % width];
+  }    // at the last update
+
   ContactConstants constants_of(int k) const
   {
-    ContactConstants c;
-    double *value = reinterpret_cast<double *>(&c);
-    for (int n = 0; n < n_constants; n++) value[n] = constants[n][k];
+    ContactConstants c = kinds.constants(kind[k]);
+    c.crowd_mass = blocks[k / width].crowd_mass[k % width];
+    c.crowd_roll = blocks[k / width].crowd_roll[k % width];
     return c;
   }
 
   ContactHistory history_of(int k) const
   {
     ContactHistory h;
-    double *value = reinterpret_cast<double *>(&h);
-    for (int n = 0; n < ContactHistory::size; n++) value[n] = history[n][k];
+    const int l = k % width;
+    const Block &block = blocks[k / width];
+    const SpaceBlock &space = space_blocks[k / width];
+    h.sliding[0] = block.sliding[l];
+    h.rolling[0] = block.rolling[l];
+    for (int c = 0; c < 2; c++) {
+      h.sliding[c + 1] = space.sliding[c][l];
+      h.rolling[c + 1] = space.rolling[c][l];
+    }
+    h.twisting = space.twisting[l];
+    for (int c = 0; c < 3; c++) h.normal[c] = space.normal[c][l];
     return h;
   }
 
   // other contacts of the two bodies have come or gone
   void set_crowding(int k, const ContactBodies &bodies)
   {
-    constants[offsetof(ContactConstants, crowd_mass) / sizeof(double)][k] =
-        bodies.m / bodies.crowding;
-    constants[offsetof(ContactConstants, crowd_roll) / sizeof(double)][k] =
-        bodies.I / (bodies.R * bodies.crowding);
+    set_crowding(k, bodies.m / bodies.crowding, bodies.I / (bodies.R * bodies.crowding));
   }
 
   // the last update found the neck beyond its end
-  bool ended(int k) const { return overlap[k] < break_overlap(k); }
+  bool ended(int k) const { return overlap(k) < kinds.constants(kind[k]).break_overlap; }
 
   // [bytes]
   double memory_usage() const
   {
-    return i.capacity() *
-        (3.0 * sizeof(int) + sizeof(StiffestMode) +
-         (1.0 + n_constants + ContactHistory::size) * sizeof(double));
+    return i.capacity() * 4.0 * sizeof(int) +
+        blocks.capacity() * (sizeof(Block) + sizeof(SpaceBlock)) + kinds.memory_usage();
   }
 
  private:
-  double break_overlap(int k) const
+  void set_crowding(int k, double mass, double roll)
   {
-    constexpr int n = offsetof(ContactConstants, break_overlap) / sizeof(double);
-    return constants[n][k];
+    blocks[k / width].crowd_mass[k % width] = mass;
+    blocks[k / width].crowd_roll[k % width] = roll;
   }
-
-  template <class Action> void for_each_array(Action action)
+  void set_history(int k, const ContactHistory &h)
   {
-    action(i);
-    action(j);
-    action(source);
-    action(mode);
-    action(overlap);
-    for (auto &array : constants) action(array);
-    for (auto &array : history) action(array);
+    const int l = k % width;
+    Block &block = blocks[k / width];
+    SpaceBlock &space = space_blocks[k / width];
+    block.sliding[l] = h.sliding[0];
+    block.rolling[l] = h.rolling[0];
+    for (int c = 0; c < 2; c++) {
+      space.sliding[c][l] = h.sliding[c + 1];
+      space.rolling[c][l] = h.rolling[c + 1];
+    }
+    space.twisting[l] = h.twisting;
+    for (int c = 0; c < 3; c++) space.normal[c][l] = h.normal[c];
   }
 };
-
-static_assert(sizeof(ContactConstants) == ContactList::n_constants * sizeof(double),
-              "doubles only");
-static_assert(sizeof(ContactHistory) == ContactHistory::size * sizeof(double), "doubles only");
 
 }    // namespace apf
 

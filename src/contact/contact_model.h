@@ -57,27 +57,35 @@ struct ContactBodies {
   }
 };
 
-// Every coefficient multiplies a power of s = sqrt(a/R), see jkr.h.
-struct ContactConstants {
-  double radius_sum;       // r_i + r_j                                                    [length]
-  double radius_i;         // r_i                                                          [length]
-  double arm_share;        // share of the overlap taken from i's arm                           [-]
-  double R;                // effective radius                                             [length]
-  double inv_R;            // 1 / R                                                      [1/length]
-  double K;                // elastic force: K s^3 (s^3 - 6 neck^3)                         [force]
-  double neck;             // s where the neck ends                                             [-]
-  double break_overlap;    // contact ends below this overlap (<= 0)                       [length]
-  double eta;              // damping: eta s = alpha sqrt(m k_N)                        [mass/time]
-  double kt;               // tangential stiffness: kt s^2 = 8 G a                   [force/length]
-  double mu;               // sliding friction                                                  [-]
-  double adhesion;         // 2 F_C in the friction limit mu |F_e + 2 F_C|                  [force]
-  double twist;         // in the limit of twisting: 1, less for a scaled stiffness, 0 without [-]
-  double roll_k;        // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
-  double roll_limit;    // xi_crit = theta_crit R                                       [length]
-  double roll_eta;      // rolling damping: roll_eta s^(3/2)                 [force time/length]
+// Every coefficient multiplies a power of s = sqrt(a/R), see jkr.h. Of doubles for one contact, of
+// Packs (pack.h) for a block of them.
+template <class Real> struct ConstantsOf {
+  Real radius_sum;       // r_i + r_j                                                    [length]
+  Real radius_i;         // r_i                                                          [length]
+  Real arm_share;        // share of the overlap taken from i's arm                           [-]
+  Real R;                // effective radius                                             [length]
+  Real inv_R;            // 1 / R                                                      [1/length]
+  Real K;                // elastic force: K s^3 (s^3 - 6 neck^3)                         [force]
+  Real neck;             // s where the neck ends                                             [-]
+  Real break_overlap;    // contact ends below this overlap (<= 0)                       [length]
+  Real eta;              // damping: eta s = alpha sqrt(m k_N)                        [mass/time]
+  Real kt;               // tangential stiffness: kt s^2 = 8 G a                   [force/length]
+  Real inv_kt;           // 1 / kt; 0 where kt is
+  Real mu;               // sliding friction                                                  [-]
+  Real adhesion;         // 2 F_C in the friction limit mu |F_e + 2 F_C|                  [force]
+  Real twist;            // in the limit of twisting: 1, less for a scaled stiffness, 0 without [-]
+  Real roll_k;           // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
+  Real inv_roll_k;       // 1 / roll_k; 0 where roll_k is
+  Real roll_limit;       // xi_crit = theta_crit R                                       [length]
+  Real roll_eta;         // rolling damping: roll_eta s^(3/2)                 [force time/length]
+  Real turning;          // see ContactBodies                                                 [-]
+  Real unused;           // makes the above whole groups of four
+};
+
+struct ContactConstants : ConstantsOf<double> {
+  // what other contacts of the two bodies change
   double crowd_mass;    // m / crowding                                                   [mass]
   double crowd_roll;    // I / (R crowding)                                        [mass length]
-  double turning;       // see ContactBodies                                                 [-]
 
   static ContactConstants make(const ContactModel &model, const ContactBodies &bodies)
   {
@@ -89,7 +97,7 @@ struct ContactConstants {
     // force maximum at s^3 = 3 m^3 (dF/ds = 0), where overlap = -delta_C 9^(-1/3)
     const double break_share = (model.neck_end == Break::force) ? std::cbrt(1.0 / 9.0) : 1.0;
 
-    ContactConstants c;
+    ContactConstants c{};
     c.radius_sum = bodies.radius_i + bodies.radius_j;
     c.radius_i = bodies.radius_i;
     c.arm_share = bodies.arm_share;
@@ -100,10 +108,12 @@ struct ContactConstants {
     c.break_overlap = -break_share * normal.pulloff_overlap();
     c.eta = model.alpha * std::sqrt(bodies.m * normal.K / bodies.R);
     c.kt = 8.0 * model.surface.G * f * bodies.R;
+    c.inv_kt = c.kt > 0.0 ? 1.0 / c.kt : 0.0;
     c.mu = model.mu;
     c.adhesion = 2.0 * normal.pulloff_force() * restore;
     c.twist = model.twisting ? std::pow(f, 0.2) : 0.0;    // (43) has a, which grows as f^(-1/5)
     c.roll_k = 6.0 * normal.K * normal.neck3() * restore;
+    c.inv_roll_k = c.roll_k > 0.0 ? 1.0 / c.roll_k : 0.0;
     c.roll_limit = model.theta_crit * bodies.R;
     c.roll_eta = 2.0 * model.zeta * std::sqrt(c.roll_k * bodies.I / bodies.R);
     c.crowd_mass = bodies.m / bodies.crowding;

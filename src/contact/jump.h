@@ -20,8 +20,8 @@ namespace apf {
 inline double force_at(const ContactConstants &c, double s, double closing_speed, double step)
 {
   const double s3 = s * s * s, neck3 = c.neck * c.neck * c.neck;
-  const double limit = stable_dashpot(c.K * c.inv_R * s * s, c.crowd_mass, step);
-  return c.K * s3 * (s3 - 6.0 * neck3) + smaller(c.eta * s, limit) * closing_speed;
+  const double eta = stable_dashpot(c.eta * s, c.K * c.inv_R * s * s, c.crowd_mass, step);
+  return c.K * s3 * (s3 - 6.0 * neck3) + eta * closing_speed;
 }
 
 // f is added to the load of j along the normal, and taken from that of i

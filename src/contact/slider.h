@@ -12,28 +12,51 @@
 
 #include "vector.h"
 
+#include <type_traits>
+
 namespace apf {
 
-// Displacement is double (planar sliding and rolling, twisting) or Vec3 (tangent plane).
-//   k      spring constant; > 0
-//   eta    dashpot constant
-//   limit  largest force
-//   v, dt  velocity of the slip and time since the last call; dt = 0 leaves the history alone
-//   xi     spring elongation, updated
-template <class Displacement>
-APF_INLINE Displacement slider_force(double k, double eta, double limit, const Displacement &v,
-                                     double dt, Displacement &xi)
-{
-  const Displacement stretched = xi + dt * v;
-  const Displacement trial = k * stretched + eta * v;
-  const double size = std::sqrt(norm2(trial)) + 1.0e-300;
-  const double share = limit < size ? limit / size : 1.0;
-  const Displacement force = share * trial;
-  const Displacement slipped = (1.0 / k) * (force - eta * v);
-  const double slips = (share < 1.0 && dt > 0.0) ? 1.0 : 0.0;
-  xi = stretched + slips * (slipped - stretched);
-  return -force;
-}
+// Displacement is a Real (planar sliding and rolling, twisting) or a vector of the tangent plane.
+// One step in two parts, so that several sliders may share a division.
+template <class Real, class Displacement> struct Slider {
+  static constexpr bool straight = std::is_same_v<Real, Displacement>;
+
+  Displacement stretched, dashpot, trial;
+  Real size;    // of the trial force; never 0
+  double active;
+
+  //   k      spring constant
+  //   eta    dashpot constant
+  //   v, dt  velocity of the slip and time since the last step; dt = 0 leaves the history alone
+  //   xi     spring elongation
+  APF_INLINE Slider(const Real &k, const Real &eta, const Displacement &v, double dt,
+                    const Displacement &xi) :
+      stretched(xi + Real(dt) * v),
+      dashpot(eta * v), trial(k * stretched + dashpot), active(dt > 0.0 ? 1.0 : 0.0)
+  {
+    using std::sqrt;
+    if constexpr (straight)
+      size = magnitude(trial);
+    else
+      size = sqrt(norm2(trial) + 1.0e-200);
+  }
+
+  //   limit     largest force
+  //   inv_size  1 / size; not used by a Real
+  //   inv_k     1 / k; 0 where there is no spring
+  //   xi        becomes the new elongation
+  APF_INLINE Displacement force(const Real &limit, const Real &inv_size, const Real &inv_k,
+                                Displacement &xi) const
+  {
+    Displacement held;
+    if constexpr (straight)
+      held = smaller(larger(trial, -limit), limit);
+    else
+      held = smaller(limit * inv_size, 1.0) * trial;
+    xi = select(limit < active * size, inv_k * (held - dashpot), stretched);
+    return -held;
+  }
+};
 
 }    // namespace apf
 

@@ -227,7 +227,7 @@ inline Rebound collide(TwoBodies &two, double dt)
   for (bool returning = false; !two.ended(); r.duration += dt) {
     two.step(dt);
     r.max_force = std::max(r.max_force, std::sqrt(norm2(TwoBodies::vec(two.f, 0))));
-    r.max_overlap = std::max(r.max_overlap, two.list.overlap[0]);
+    r.max_overlap = std::max(r.max_overlap, two.list.overlap(0));
     const bool closes = two.closing_speed() > 0.0;
     if (returning && closes) return r;
     returning = !closes;
