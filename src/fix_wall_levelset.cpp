@@ -196,7 +196,8 @@ void FixWallLevelset::touch(int i, int surface, double distance)
                "inside, or use a smaller timestep",
                command, id, atom->tag[i], -distance);
   close(i, surface, apf::ContactHistory());
-  note_touch(approach_of(i, surface, distance), atom->radius[i], contacts.mode(contacts.size() - 1));
+  note_touch(approach_of(i, surface, distance), atom->radius[i],
+             contacts.mode(contacts.size() - 1));
   captured += 1.0;
 }
 
