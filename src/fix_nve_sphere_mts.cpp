@@ -506,7 +506,7 @@ template <class Row> void FixNVESphereMTS::sub_step_active()
   const apf::ContactTimes times{dt, 0.5 * dt, dt};
   const int n = static_cast<int>(moving.size());
   for (int step = 1; step < n_collision; step++) {
-    exchange.forward(rows);
+    exchange.forward(rows, 1.0 - static_cast<double>(step) / n_collision);
     for (const int i : held) bodies.clear_loads(i, i + 1);
     for (const int i : exchange.ghosts()) bodies.clear_loads(i, i + 1);
     for (auto *keeper : keepers) keeper->sub_step(times);

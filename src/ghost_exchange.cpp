@@ -81,7 +81,7 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
     if (!used[first + g]) continue;
     chosen.push_back(first + g);
     const int r = owner_rank[g];
-    partner(r).images.push_back({first + g, {}, {}});
+    partner(r).images.push_back({first + g, {}, {}, {}});
     if (r == me)
       self.sent.push_back(owner_row[g]);
     else
@@ -116,7 +116,10 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
     double ghost[6];
     motion(image.ghost, ghost);
     image_shift(domain, owner, ghost, image.shift);
-    for (int c = 0; c < 3; c++) image.dv[c] = shift_velocity ? ghost[3 + c] - owner[3 + c] : 0.0;
+    for (int c = 0; c < 3; c++) {
+      image.dv[c] = shift_velocity ? ghost[3 + c] - owner[3 + c] : 0.0;
+      image.behind[c] = domain->box_change ? image.shift[c] - (ghost[c] - owner[c]) : 0.0;
+    }
   };
   for (auto &p : partners) {
     p.in.resize(6 * p.images.size());
@@ -143,7 +146,7 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
 
 /* ---------------------------------------------------------------------- */
 
-template <class Row> void GhostExchange::forward(Row *rows)
+template <class Row> void GhostExchange::forward(Row *rows, double left)
 {
   constexpr int size = motion_size<Row>;
   requests.clear();
@@ -163,9 +166,9 @@ template <class Row> void GhostExchange::forward(Row *rows)
                   world, &requests.back());
     }
   }
-  auto place = [rows](const Image &image, const double *buf) {
+  auto place = [rows, left](const Image &image, const double *buf) {
     Row &row = rows[image.ghost];
-    for (int c = 0; c < Row::dim; c++) row.x[c] = *buf++ + image.shift[c];
+    for (int c = 0; c < Row::dim; c++) row.x[c] = *buf++ + image.shift[c] - left * image.behind[c];
     for (int c = 0; c < Row::dim; c++) row.v[c] = *buf++ + image.dv[c];
     for (double &c : row.omega) c = *buf++;
   };
@@ -220,8 +223,8 @@ template <class Row> void GhostExchange::reverse(Row *rows)
 }
 
 namespace LAMMPS_NS {
-template void GhostExchange::forward(apf::PlaneRow *);
-template void GhostExchange::forward(apf::SpaceRow *);
+template void GhostExchange::forward(apf::PlaneRow *, double);
+template void GhostExchange::forward(apf::SpaceRow *, double);
 template void GhostExchange::reverse(apf::PlaneRow *);
 template void GhostExchange::reverse(apf::SpaceRow *);
 }    // namespace LAMMPS_NS

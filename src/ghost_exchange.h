@@ -25,8 +25,9 @@ class GhostExchange {
   void choose(const std::vector<char> &used, const Domain *domain, bool shift_velocity,
               const apf::Bodies &bodies, std::vector<char> &wanted);
 
-  // owners' positions and velocities go to ghosts; collective
-  template <class Row> void forward(Row *rows);
+  // owners' positions and velocities go to ghosts; collective. left: share of the particle step to
+  // come: in a box that changes images move on from where they stood to where the box has them now
+  template <class Row> void forward(Row *rows, double left);
   // loads of ghosts are added to those of their owners, and cleared; collective
   template <class Row> void reverse(Row *rows);
 
@@ -35,7 +36,8 @@ class GhostExchange {
  private:
   struct Image {
     int ghost;    // row here
-    double shift[3], dv[3];
+    double shift[3], dv[3];    // from the owner, as the box is now
+    double behind[3];          // of the shift as it was; 0 in a box that does not change
   };
   struct Partner {
     int rank;

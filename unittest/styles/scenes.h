@@ -65,6 +65,21 @@ inline double snap(double x)
   return std::round(x * 1073741824.0) / 1073741824.0;
 }
 
+// all digits of a number, for a command
+inline std::string digits(double value)
+{
+  char text[32];
+  snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
+
+// particle steps of n collision steps, each as long as `step`
+inline std::string mts(int n, double step = dt, const std::string &more = "")
+{
+  return "fix nve all nve/sphere/mts collision " + std::to_string(n) + " " + more + "\ntimestep " +
+      digits(n * step) + "\n";
+}
+
 struct Sphere {
   double x, y, z, d = 1.0;
 };
@@ -102,6 +117,16 @@ inline void build(Simulation &sim, const std::vector<Sphere> &spheres, const Sce
     sim.run(line);
   }
   sim.run(scene.style);
+}
+
+// many spheres of diameter and density 1 in a scene built without, coordinates [spheres][3]
+inline void add_spheres(Simulation &sim, const std::vector<double> &x, const std::vector<double> &v)
+{
+  const int n = static_cast<int>(x.size() / 3);
+  std::vector<int> ids(n), types(n, 1);
+  for (int k = 0; k < n; k++) ids[k] = k + 1;
+  lammps_create_atoms(sim.lammps(), n, ids.data(), types.data(), x.data(), v.data(), nullptr, 0);
+  sim.run("set group all diameter 1.0 density 1.0");
 }
 
 // per-atom values of all ranks by ID, `columns` a particle

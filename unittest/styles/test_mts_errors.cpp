@@ -1,0 +1,99 @@
+// What fix nve/sphere/mts refuses, and why.
+
+#include "scenes.h"
+
+namespace {
+
+void expect_words(const std::string &text, const std::vector<std::string> &words)
+{
+  ASSERT_NE(text, "") << "no message with " << words[0];
+  for (const auto &word : words)
+    EXPECT_NE(text.find(word), std::string::npos) << "no '" << word << "' in: " << text;
+}
+
+const std::string name = "Fix nve/sphere/mts";
+const std::string start = "fix nve all nve/sphere/mts collision 8\n";
+
+TEST(MtsErrors, words_of_the_command)
+{
+  const std::string missing = "fix nve/sphere/mts", argument = "missing argument";
+  const std::vector<std::vector<std::string>> table = {
+      {"", missing + " collision", argument},
+      {"collision", missing + " collision", argument},
+      {"steps 8", name, "begins with keyword collision, got steps"},
+      {"collision 0", name, "auto or a number of steps >= 1, got 0"},
+      {"collision -3", name, "auto or a number of steps >= 1, got -3"},
+      {"collision 2.5", "integer", "2.5"},
+      {"collision automatic", "integer", "automatic"},
+      {"collision auto safety", missing + " safety", argument},
+      {"collision auto safety 0", name, "safety must be in (0, 0.8], got 0"},
+      {"collision auto safety -0.1", name, "safety must be in (0, 0.8], got -0.1"},
+      {"collision auto safety 0.81", name, "safety must be in (0, 0.8], got 0.81"},
+      {"collision auto safety nan", "nan"},
+      {"collision auto safety much", "floating point", "much"},
+      {"collision 8 safety 0.3", name, "safety has no meaning beside collision 8"},
+      {"collision auto fluid", missing + " fluid", argument},
+      {"collision auto fluid 0", name, "fluid must be >= 1, got 0"},
+      {"collision auto fluid 1.5", "integer", "1.5"},
+      {"collision auto lookahead", missing + " lookahead", argument},
+      {"collision auto lookahead maybe", "boolean", "maybe"},
+      {"collision auto 8", name, "keyword must be safety, fluid or lookahead, got 8"},
+      {"collision 8 collision 9", name, "keyword must be safety, fluid or lookahead, got collision"},
+  };
+  for (const auto &row : table) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}});
+    SCOPED_TRACE(row[0]);
+    expect_words(sim.error_of("fix nve all nve/sphere/mts " + row[0]),
+                 {row.begin() + 1, row.end()});
+  }
+}
+
+TEST(MtsErrors, what_is_right_is_taken)
+{
+  for (const char *words :
+       {"collision 1", "collision 100 lookahead no", "collision auto safety 0.8 fluid 10",
+        "collision auto lookahead yes fluid 1 safety 0.001"}) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}, {4.99, 4.0, 4.0}});
+    EXPECT_EQ(sim.error_of(std::string("fix nve all nve/sphere/mts ") + words + "\nrun 1"), "");
+  }
+}
+
+TEST(MtsErrors, what_it_cannot_work_with)
+{
+  const std::vector<std::vector<std::string>> table = {
+      {start + "run_style respa 2 4 pair 1\nrun 0", name, "run_style respa", "run_style verlet"},
+      {start + "minimize 0 0 1 1", name, "minimize", "unfix it first"},
+      {start + "fix more all nve/sphere\nrun 0", name, "fix more nve/sphere", "stand still"},
+      {start + "fix more all nve/sphere/mts collision 8\nrun 0", name, "nve/sphere/mts"},
+      {start + "group one id 1\nfix move one move linear 1 0 0\nrun 0", name, "fix move move"},
+      {start + "fix body all rigid/small molecule\nrun 0", "molecule"},
+      {start + "fix body all rigid single\nrun 0", name, "fix body rigid"},
+      {start + "pair_style zero 1.0\npair_coeff * *\nrun 0", name, "pair style granular/adhesive",
+       "got 0"},
+      {start + "pair_style none\nrun 0", name, "pair style granular/adhesive", "got 0"},
+  };
+  for (const auto &row : table) {
+    Simulation sim;
+    build(sim, {{3.0, 4.0, 4.0}, {5.0, 4.0, 4.0}});
+    SCOPED_TRACE(row[0]);
+    expect_words(sim.error_of(row[0]), {row.begin() + 1, row.end()});
+  }
+  Simulation sim;
+  expect_words(sim.error_of("region b block 0 1 0 1 0 1\ncreate_box 1 b\n" + start),
+               {name, "atom style sphere", "atomic"});
+}
+
+TEST(MtsErrors, skin_that_is_too_thin_for_what_it_must_see)
+{
+  Simulation sim;
+  build(sim, {{2.0, 4.0, 4.0}, {6.0, 4.0, 4.0}});
+  set_motion(sim, 1, {100.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  // 2 steps x 8 dt x speed 100
+  expect_words(sim.error_of("neighbor 0.09 bin\n" + mts(8) + "run 1"),
+               {name, "looks ahead by 0.0977", "skin of 0.09", "neighbor 0.15 bin"});
+  EXPECT_EQ(sim.error_of("neighbor 0.15 bin\nrun 1"), "");
+}
+
+}    // namespace

@@ -1,0 +1,124 @@
+// fix nve/sphere/mts knows nothing of ranks, boundaries, cells and who owns a pair: each scene equals
+// the same scene computed well inside one box by velocity Verlet at the collision step.
+
+#include "scenes.h"
+
+namespace {
+
+const std::string law = jkr + "damping tsuji 0.5 sliding 0.3 twisting yes rolling 0.02 ";
+const std::string pair = "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
+const std::vector<std::string> both = {"on", "off"};
+
+// An aggregate of six, its contacts off their rest, and a bullet that hits it.
+const std::vector<Sphere> aggregate = {
+    {0.0, 0.0, 0.0},        {0.985, 0.0, 0.0},     {0.49, 0.85, 0.0},    {0.49, 0.29, 0.81},
+    {-0.7, -0.69, 0.0, 1.0}, {0.49, 0.29, -0.36, 0.2}, {2.1, 0.7, 0.3, 0.5}};
+
+struct Journey {
+  Scene scene;
+  std::string commands;
+  std::vector<double> from = {4.0, 4.0, 4.0}, v = {0.0, 0.0, 0.0};
+};
+
+// positions are relative to the first sphere, velocities to the journey
+State travelled(const Journey &journey, const std::string &integrate, int steps)
+{
+  Simulation sim;
+  auto spheres = aggregate;
+  for (auto &sphere : spheres) {
+    sphere.x = snap(sphere.x) + journey.from[0];
+    sphere.y = snap(sphere.y) + journey.from[1];
+    sphere.z = snap(sphere.z) + journey.from[2];
+  }
+  Scene scene = journey.scene;
+  scene.style = pair;
+  build(sim, spheres, scene);
+  for (int n = 0; n < 7; n++) {
+    const double s = n == 6 ? -25.0 : 0.3 * (n % 3);
+    set_motion(sim, n + 1, {journey.v[0] + s, journey.v[1] - 0.2 * s, journey.v[2] + 0.1 * s},
+               {2.0 - n, 0.5 * n, 1.0});
+  }
+  sim.run("neighbor 0.5 bin\n" + journey.commands + integrate + "run " + std::to_string(steps));
+  State state = state_of(sim);
+  for (int n = 6; n >= 0; n--)
+    for (int c = 0; c < 3; c++) {
+      double d = state.x[3 * n + c] - state.x[c];
+      state.x[3 * n + c] = d - 8.0 * std::round(d / 8.0);
+      state.v[3 * n + c] -= journey.v[c];
+    }
+  return state;
+}
+
+const State &reference()
+{
+  static const State state = travelled(Journey(), "fix nve all nve/sphere\n", 1600);
+  return state;
+}
+
+void expect_reference(const Journey &journey, double tolerance = 1e-9)
+{
+  const State state = travelled(journey, mts(16), 100);
+  printf("x %g v %g w %g f %g t %g\n", difference(state.x, reference().x), difference(state.v, reference().v),
+    difference(state.omega, reference().omega), difference(state.f, reference().f), difference(state.torque, reference().torque));
+  expect_same(state, reference(), tolerance);
+}
+
+TEST(RanksMtsRanks, the_bullet_hits)
+{
+  const State before = travelled(Journey(), mts(16), 0);
+  EXPECT_GT(difference(reference().v, before.v), 0.5);
+  EXPECT_GT(largest(reference().torque), 0.5);
+}
+
+TEST(RanksMtsRanks, aggregate_across_ranks_and_boundaries)
+{
+  for (const auto &newton : both)
+    for (const std::vector<double> &from : std::vector<std::vector<double>>{
+             {4.0, 4.0, 4.0}, {2.0, 2.0, 2.0}, {7.875, 7.75, 0.125}, {3.625, 7.875, 4.25}}) {
+      Journey journey;
+      journey.scene.newton = newton;
+      journey.from = from;
+      SCOPED_TRACE(newton + " " + digits(from[0]));
+      expect_reference(journey);
+    }
+}
+
+TEST(RanksMtsRanks, aggregate_travels_along_each_decomposition)
+{
+  const std::string n = std::to_string(number_of_ranks());
+  for (const auto &newton : both)
+    for (const std::string &processors : {n + " 1 1", "1 " + n + " 1", "1 1 " + n}) {
+      Journey journey;
+      journey.scene.newton = newton;
+      journey.scene.processors = processors;
+      journey.scene.before = "atom_modify sort 7 1.0";
+      journey.v = {48.0, -32.0, 64.0};    // 4.7, 3.1 and 6.3 diameters
+      SCOPED_TRACE(newton + " " + processors);
+      expect_reference(journey, 1e-7);
+    }
+}
+
+TEST(RanksMtsRanks, tiled_decomposition_that_is_balanced)
+{
+  for (const auto &newton : both) {
+    Journey journey;
+    journey.scene.newton = newton;
+    journey.v = {48.0, -32.0, 64.0};
+    journey.commands = "comm_style tiled\ncomm_modify vel yes\n"
+                       "fix rcb all balance 7 1.0 rcb\n";
+    SCOPED_TRACE(newton);
+    expect_reference(journey, 1e-7);
+    journey.commands = "fix shift all balance 7 1.0 shift xyz 5 1.1\n";
+    expect_reference(journey, 1e-7);
+  }
+}
+
+TEST(RanksMtsRanks, neighbour_lists_built_often)
+{
+  Journey journey;
+  journey.v = {48.0, -32.0, 64.0};
+  journey.commands = "neigh_modify delay 0 every 1 check no binsize 2\natom_modify sort 1 1.0\n";
+  expect_reference(journey, 1e-7);
+}
+
+}    // namespace

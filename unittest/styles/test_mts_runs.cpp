@@ -1,0 +1,166 @@
+// fix nve/sphere/mts: runs that stop and go on, restarts in mid-contact, and what other commands see
+// of contacts after a step: that is what a velocity Verlet step of the collision step's length gives.
+
+#include "scenes.h"
+
+#include <fstream>
+
+namespace {
+
+const std::string law = jkr + "damping tsuji 0.5 sliding 0.3 twisting yes rolling 0.02 ";
+const std::string wall = "fix wall all wall/levelset plane z 0 NULL" + law + "\n";
+const std::string dynamics = "fix g all gravity 500 vector 1 0.5 -1\n" + wall;
+
+void build_pile(Simulation &sim)
+{
+  Scene scene;
+  scene.boundary = "p p f";
+  scene.style = "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
+  build(sim, {{3.5, 4.0, 0.49}, {4.48, 4.0, 0.485}, {4.0, 4.2, 1.515}}, scene);
+  set_motion(sim, 1, {1.0, 0.5, 0.0}, {3.0, 1.0, 2.0});
+  set_motion(sim, 2, {0.5, 1.0, 0.0}, {-2.0, 4.0, 1.0});
+  set_motion(sim, 3, {2.0, 0.0, -1.0}, {0.0, -3.0, -2.0});
+}
+
+const std::string fixed = mts(20);
+const std::string automatic =
+    "fix nve all nve/sphere/mts collision auto safety 0.05\ntimestep " + digits(20 * dt) + "\n";
+
+State after(const std::string &commands)
+{
+  Simulation sim;
+  build_pile(sim);
+  sim.run(dynamics + commands);
+  return state_of(sim);
+}
+
+TEST(RanksMtsRuns, two_runs_are_one)
+{
+  for (const auto &integrate : {fixed, automatic}) {
+    const State reference = after(integrate + "run 40");
+    ASSERT_GT(largest(reference.torque), 0.5);
+    for (const char *cut : {"run 1\nrun 39", "run 0\nrun 40", "run 17\nrun 0\nrun 23",
+                            "run 40 every 8 NULL"}) {
+      SCOPED_TRACE(integrate + cut);
+      expect_same(after(integrate + cut), reference, 1e-10);
+    }
+  }
+}
+
+TEST(RanksMtsRuns, restart_goes_on)
+{
+  const std::string file = scratch_file("restart");
+  for (const auto &integrate : {fixed, automatic}) {
+    double counted[2] = {};
+    State reference;
+    {
+      Simulation sim;
+      build_pile(sim);
+      sim.run(dynamics + integrate + "run 40");
+      reference = state_of(sim);
+      counted[0] = sim.value("f_nve[4]");
+      counted[1] = sim.value("f_wall[8]");
+    }
+    for (const std::string &way :
+         {"run 17\nwrite_restart " + file, "restart 17 " + file + "\nrun 40"}) {
+      after(integrate + way);
+      const std::string from = way[1] == 'e' ? file + ".17" : file;
+      Simulation sim;
+      sim.run("read_restart " + from + "\n" + dynamics + integrate + "run 23");
+      SCOPED_TRACE(integrate + way);
+      expect_same(state_of(sim), reference, 1e-10);
+      EXPECT_EQ(sim.value("f_nve[4]"), counted[0]);
+      EXPECT_EQ(sim.value("f_wall[8]"), counted[1]);
+      EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+    }
+    for (const char *number : {"", ".17", ".34"}) std::remove((file + number).c_str());
+  }
+}
+
+// ---------------------------------------------------------------------------------------------
+// energy, pressure, rows of pair/local and the load of the wall, at the end of the same time
+
+const std::string outputs = "compute p all pressure NULL pair\n"
+                            "compute c all pair/local dist force p1 p4 p5 p6 p7 p8 p9 p10 p11\n"
+                            "compute sum all reduce sum c_c[*] inputs local\n"
+                            "compute most all reduce maxabs c_c[*] inputs local\n"
+                            "fix_modify wall energy yes virial yes\ncompute w all pressure NULL fix\n"
+                            "compute s all stress/atom NULL\ncompute S all reduce maxabs c_s[*]\n"
+                            "thermo_style custom step pe ke c_p[*] c_w[*] c_sum[*] c_most[*] c_S[*] "
+                            "f_wall[*]\nthermo_modify norm no\n";
+
+std::vector<double> seen(Simulation &sim)
+{
+  std::vector<double> all = {sim.value("pe"), sim.value("ke")};
+  for (const char *name : {"c_p", "c_w", "c_sum", "c_most", "c_S", "f_wall"})
+    for (int n = 1; n <= (name[2] == 's' || name[2] == 'm' ? 11 : 6); n++)
+      all.push_back(sim.value(std::string(name) + "[" + std::to_string(n) + "]"));
+  return all;
+}
+
+TEST(RanksMtsRuns, outputs_are_those_of_verlet_at_the_collision_step)
+{
+  auto outcome = [](const std::string &integrate, const std::string &run) {
+    Simulation sim;
+    build_pile(sim);
+    sim.run(dynamics + "fix nve all nve/sphere\n" + outputs);
+    if (integrate[0] == 'f') sim.run("unfix nve\nthermo_style custom step\n" + integrate);
+    sim.run("thermo_style custom step pe ke c_p[*] c_w[*] c_sum[*] c_most[*] c_S[*] f_wall[*]\n"
+            "thermo_modify norm no\nthermo 1000000\n" +
+            run);
+    auto numbers = seen(sim);
+    const auto state = state_of(sim);
+    numbers.insert(numbers.end(), state.f.begin(), state.f.end());
+    return numbers;
+  };
+  const auto reference = outcome("", "run 800"), levels = outcome(fixed, "run 40");
+  for (size_t n = 0; n < reference.size(); n++)
+    EXPECT_NEAR(levels[n], reference[n], 1e-7 * std::max(1.0, std::fabs(reference[n]))) << n;
+  // looked at again without a step, nothing is different
+  const auto again = outcome(fixed, "run 40\nrun 0");
+  for (size_t n = 0; n < reference.size(); n++)
+    EXPECT_NEAR(again[n], levels[n], 1e-9 * std::max(1.0, std::fabs(levels[n]))) << n;
+}
+
+// ---------------------------------------------------------------------------------------------
+// elastic contacts without friction depend on positions alone, where there are no necks: a dump shows
+// the run again
+
+TEST(RanksMtsRuns, rerun_of_a_dump_shows_the_run)
+{
+  const std::string file = scratch_file("dump");
+  auto rows = [&](const std::string &run) {
+    const std::string table = file + ".table";
+    {
+      Simulation sim;
+      build_pile(sim);
+      sim.run("velocity all set 1 0.5 0.25\nset atom 2 x 4.492\npair_style granular/adhesive\npair_coeff * *" + jkr +
+              "\nfix g all gravity 500 vector 1 0.5 -1\nthermo_modify norm no\n"
+              "compute p all pressure NULL pair\nvariable e equal pe\nvariable p equal c_p\n"
+              "variable n equal f_nve[3]\n" +
+              fixed + "fix log all ave/time 4 1 4 v_e v_p v_n file " + table +
+              " format \" %.17g\"\n" + run);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::ifstream in(table);
+    std::vector<double> all;
+    std::string line;
+    while (std::getline(in, line)) {
+      std::istringstream words(line);
+      for (double number; words >> number;) all.push_back(number);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::remove(table.c_str());
+    return all;
+  };
+  const auto run = rows("dump d all custom 4 " + file +
+                        " id type x y z vx vy vz\ndump_modify d sort id format float %.17g\nrun 40");
+  const auto again = rows("rerun " + file + " dump x y z vx vy vz");
+  std::remove(file.c_str());
+  ASSERT_EQ(run.size(), 44u);    // step, energy, pressure and contacts of eleven steps
+  printf("rerun %g\n", difference(again, run));
+  for (size_t n = 0; n < run.size(); n++)
+    EXPECT_NEAR(again[n], run[n], 1e-9 * std::max(1.0, std::fabs(run[n]))) << n;
+}
+
+}    // namespace
