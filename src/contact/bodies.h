@@ -1,6 +1,6 @@
 // The bodies that contacts join: one row of numbers per body, position, velocity, spin and the load
-// that contacts put on it side by side. A contact touches one cache line of each of its two bodies in
-// the plane and two in space; both laws' rows are whole numbers of vector registers.
+// that contacts put on it side by side. A contact touches one cache line of each of its two bodies
+// in the plane and two in space; both laws' rows are whole numbers of vector registers.
 
 #ifndef APF_BODIES_H
 #define APF_BODIES_H
@@ -11,7 +11,7 @@
 namespace apf {
 
 // What contacts read stands before what they add to, so that writing a load never holds up reading
-// the next contact's velocities; both in pieces of two and four for vector loads (contact_kernel.cpp).
+// the next contact's velocities; both in pieces of two and four for vector loads of the kernel.
 
 // in the xy plane: spins and torques about z
 struct alignas(64) PlaneRow {

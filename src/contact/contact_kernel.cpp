@@ -22,8 +22,8 @@ using Real = Pack<16>;
 
 template <class Frame> using RowOf = std::conditional_t<Frame::planar, PlaneRow, SpaceRow>;
 
-// The bodies and kinds of a block's contacts. An incomplete block is filled up with its last contact
-// between copies of its bodies, so that all blocks are treated alike.
+// The bodies and kinds of a block's contacts. An incomplete block is filled up with its last
+// contact between copies of its bodies, so that all blocks are treated alike.
 template <class Row> struct Members {
   Row *i[width], *j[width];
   int kind[width];

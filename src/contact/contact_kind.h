@@ -1,5 +1,5 @@
-// Contacts between bodies of the same size, mass and material are of one kind: their constants cost a
-// dozen roots and powers, and are looked up where the same kind was met before.
+// Contacts between bodies of the same size, mass and material are of one kind: their constants cost
+// a dozen roots and powers, and are looked up where the same kind was met before.
 
 #ifndef APF_CONTACT_KIND_H
 #define APF_CONTACT_KIND_H
