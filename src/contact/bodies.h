@@ -12,7 +12,7 @@
 namespace apf {
 
 // What contacts read stands before what they add to, so that writing a load never holds up reading
-// the next contact's velocities; both in pieces of two and four for vector loads (contact_kernel.cpp).
+// the next contact's velocities; both in pieces of two and four for vector loads of the kernel.
 
 // in the xy plane: spins and torques about z
 struct alignas(64) PlaneRow {

@@ -22,17 +22,28 @@ using Real = Pack<16>;
 
 template <class Frame> using RowOf = std::conditional_t<Frame::planar, PlaneRow, SpaceRow>;
 
-// The bodies and kinds of a block's contacts. An incomplete block repeats its last contact.
-struct Members {
-  int i[width], j[width], kind[width];
+// The bodies and kinds of a block's contacts. An incomplete block is filled up with its last
+// contact between copies of its bodies, so that all blocks are treated alike.
+template <class Row> struct Members {
+  Row *i[width], *j[width];
+  int kind[width];
 
-  APF_INLINE Members(const ContactList &list, int first, int n)
+  APF_INLINE Members(const ContactList &list, Row *rows, int first, Row (&copies)[2])
   {
-    for (int l = 0; l < width; l++) {
-      const int k = first + (l < n ? l : n - 1);
-      i[l] = list.i[k];
-      j[l] = list.j[k];
-      kind[l] = list.kind[k];
+    const int *of_i = &list.i[first], *of_j = &list.j[first], *of_kind = &list.kind[first];
+    const int n = list.size() - first;
+    if (n >= width) {
+      for (int l = 0; l < width; l++) i[l] = rows + of_i[l];
+      for (int l = 0; l < width; l++) j[l] = rows + of_j[l];
+      std::memcpy(kind, of_kind, sizeof(kind));
+    } else {
+      copies[0] = rows[of_i[n - 1]];
+      copies[1] = rows[of_j[n - 1]];
+      for (int l = 0; l < width; l++) {
+        i[l] = l < n ? rows + of_i[l] : copies;
+        j[l] = l < n ? rows + of_j[l] : copies + 1;
+        kind[l] = of_kind[l < n ? l : n - 1];
+      }
     }
   }
 };
@@ -70,48 +81,48 @@ class BlockConstants {
 
 // ---- gather and scatter, for the layout of rows in bodies.h
 
-APF_INLINE ContactInput<PlaneFrame<Real>> gather(const PlaneRow *rows, const Members &m)
+APF_INLINE ContactInput<PlaneFrame<Real>> gather(const Members<PlaneRow> &m)
 {
   Real xv[4];
   from_rows(
-      [rows, &m](int l, int c, auto type) {
+      [&m](int l, int c, auto type) {
         using Part = decltype(type);
-        return load<Part>(rows[m.j[l]].x + c) - load<Part>(rows[m.i[l]].x + c);
+        return load<Part>(m.j[l]->x + c) - load<Part>(m.i[l]->x + c);
       },
       xv);
   ContactInput<PlaneFrame<Real>> in;
   in.d = {xv[0], xv[1]};
   in.v = {-xv[2], -xv[3]};
   for (int l = 0; l < width; l++) {
-    in.spin_i.set_lane(l, rows[m.i[l]].omega[0]);
-    in.spin_j.set_lane(l, rows[m.j[l]].omega[0]);
+    in.spin_i.set_lane(l, m.i[l]->omega[0]);
+    in.spin_j.set_lane(l, m.j[l]->omega[0]);
   }
   return in;
 }
 
-APF_INLINE ContactInput<SpaceFrame<Real>> gather(const SpaceRow *rows, const Members &m)
+APF_INLINE ContactInput<SpaceFrame<Real>> gather(const Members<SpaceRow> &m)
 {
   Real xv[4], vv[2], spin_i[4], spin_j[4];
   from_rows(
-      [rows, &m](int l, int c, auto type) {
+      [&m](int l, int c, auto type) {
         using Part = decltype(type);
-        return load<Part>(rows[m.j[l]].x + c) - load<Part>(rows[m.i[l]].x + c);
+        return load<Part>(m.j[l]->x + c) - load<Part>(m.i[l]->x + c);
       },
       xv);
   from_rows(
-      [rows, &m](int l, int c, auto type) {
+      [&m](int l, int c, auto type) {
         using Part = decltype(type);
-        return load<Part>(rows[m.i[l]].v + 1 + c) - load<Part>(rows[m.j[l]].v + 1 + c);
+        return load<Part>(m.i[l]->v + 1 + c) - load<Part>(m.j[l]->v + 1 + c);
       },
       vv);
   from_rows(
-      [rows, &m](int l, int c, auto type) {
-        return load<decltype(type)>(rows[m.i[l]].omega + c);
+      [&m](int l, int c, auto type) {
+        return load<decltype(type)>(m.i[l]->omega + c);
       },
       spin_i);
   from_rows(
-      [rows, &m](int l, int c, auto type) {
-        return load<decltype(type)>(rows[m.j[l]].omega + c);
+      [&m](int l, int c, auto type) {
+        return load<decltype(type)>(m.j[l]->omega + c);
       },
       spin_j);
   ContactInput<SpaceFrame<Real>> in;
@@ -122,46 +133,39 @@ APF_INLINE ContactInput<SpaceFrame<Real>> gather(const SpaceRow *rows, const Mem
   return in;
 }
 
-// of the first n contacts
 template <bool torques>
-APF_INLINE void scatter(PlaneRow *rows, const Members &m, int n,
-                        const ContactOutput<PlaneFrame<Real>> &out)
+APF_INLINE void scatter(const Members<PlaneRow> &m, const ContactOutput<PlaneFrame<Real>> &out)
 {
-  to_rows(out.force.x, out.force.y, [=, &m](int l, int, const Pair &part) {
-    if (l >= n) return;
-    add_to(rows[m.i[l]].f, part);
-    add_to(rows[m.j[l]].f, Pair(-part));
+  to_rows(out.force.x, out.force.y, [&m](int l, int, const Pair &part) {
+    add_to(m.i[l]->f, part);
+    add_to(m.j[l]->f, Pair(-part));
   });
   if constexpr (torques)
     for (int l = 0; l < width; l++) {
-      if (l >= n) break;
-      rows[m.i[l]].torque[0] += out.torque_i.lane(l);
-      rows[m.j[l]].torque[0] += out.torque_j.lane(l);
+      m.i[l]->torque[0] += out.torque_i.lane(l);
+      m.j[l]->torque[0] += out.torque_j.lane(l);
     }
 }
 
 template <bool torques>
-APF_INLINE void scatter(SpaceRow *rows, const Members &m, int n,
-                        const ContactOutput<SpaceFrame<Real>> &out)
+APF_INLINE void scatter(const Members<SpaceRow> &m, const ContactOutput<SpaceFrame<Real>> &out)
 {
   const auto &f = out.force, &ti = out.torque_i, &tj = out.torque_j;
-  to_rows(f.x, f.y, [=, &m](int l, int, const Pair &part) {
-    if (l >= n) return;
-    add_to(rows[m.i[l]].f, part);
-    add_to(rows[m.j[l]].f, Pair(-part));
+  to_rows(f.x, f.y, [&m](int l, int, const Pair &part) {
+    add_to(m.i[l]->f, part);
+    add_to(m.j[l]->f, Pair(-part));
   });
   if constexpr (torques) {
-    to_rows(f.z, ti.x, ti.y, ti.z, [=, &m](int l, int c, const auto &part) {
-      if (l < n) add_to(rows[m.i[l]].f + 2 + c, part);
+    to_rows(f.z, ti.x, ti.y, ti.z, [&m](int l, int c, const auto &part) {
+      add_to(m.i[l]->f + 2 + c, part);
     });
-    to_rows(-f.z, tj.x, tj.y, tj.z, [=, &m](int l, int c, const auto &part) {
-      if (l < n) add_to(rows[m.j[l]].f + 2 + c, part);
+    to_rows(-f.z, tj.x, tj.y, tj.z, [&m](int l, int c, const auto &part) {
+      add_to(m.j[l]->f + 2 + c, part);
     });
   } else {
     for (int l = 0; l < width; l++) {
-      if (l >= n) break;
-      rows[m.i[l]].f[2] += f.z.lane(l);
-      rows[m.j[l]].f[2] -= f.z.lane(l);
+      m.i[l]->f[2] += f.z.lane(l);
+      m.j[l]->f[2] -= f.z.lane(l);
     }
   }
 }
@@ -282,26 +286,28 @@ APF_INLINE int all_blocks(ContactList &list, Bodies &bodies, ContactTimes times,
   const int size = list.size();
   BlockConstants constants;
   Real ended = 0.0;
+  RowOf<Frame> copies[2];
   for (int first = 0; first < size; first += width) {
-    const int n = (size - first < width) ? size - first : width, b = first / width;
-    const Members members(list, first, n);
+    const int b = first / width;
+    const Members members(list, rows, first, copies);
     auto &block = list.blocks[b];
     const ConstantsOf<Real> &c = constants.of(list.kinds, members.kind);
     ContactMemory<Frame> memory;
     recall<sliding, twisting, rolling>(list, b, memory);
 
-    ContactInput<Frame> in = gather(rows, members);
+    ContactInput<Frame> in = gather(members);
     in.crowd_mass = Real::load(block.crowd_mass);
     if constexpr (rolling) in.crowd_roll = Real::load(block.crowd_roll);
     const auto out = contact_law<Frame, adhesion, sliding, twisting, rolling>(c, in, times, memory);
-    scatter<sliding || rolling>(rows, members, n, out);
+    scatter<sliding || rolling>(members, out);
 
     if (!reports || times.advance > 0.0)    // a look at the parts must not change the run
       keep<sliding, twisting, rolling>(list, b, memory);
     out.overlap.store(block.overlap);
     ended = ended + select(out.overlap < c.break_overlap, Real(1.0), Real(0.0));
     if constexpr (reports)
-      for (int l = 0; l < n; l++) parts[first + l] = report<Frame>(list, first + l, in, out);
+      for (int l = 0; l < width && first + l < size; l++)
+        parts[first + l] = report<Frame>(list, first + l, in, out);
   }
   double sum = 0.0;
   for (int l = 0; l < width; l++) sum += ended.lane(l);

@@ -1,5 +1,5 @@
-// Runs the contact law over a ContactList, a block of contacts at a time: gathers what the law needs
-// of their bodies into vector registers, one contact per lane, and scatters forces.
+// Runs the contact law over a ContactList, a block of contacts at a time: gathers what the law
+// needs of their bodies into vector registers, one contact per lane, and scatters forces.
 
 #ifndef APF_CONTACT_KERNEL_H
 #define APF_CONTACT_KERNEL_H

@@ -258,6 +258,13 @@ class ContactList {
     return h;
   }
 
+  // what a step changes
+  void update(int k, double overlap, const ContactHistory &h)
+  {
+    blocks[k / width].overlap[k % width] = overlap;
+    set_history(k, h);
+  }
+
   // other contacts of the two bodies have come or gone
   void set_crowding(int k, const ContactBodies &bodies)
   {
