@@ -41,9 +41,9 @@ FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
   extvector = 0;
   restart_global = 1;
   create_attribute = 1;
-  maxexchange = 1;
+  maxexchange = 7;
   comm_forward = 2;
-  comm_reverse = 1;
+  comm_reverse = 6;
 
   auto missing = [&](const std::string &word) {
     utils::missing_cmd_args(FLERR, "fix nve/sphere/mts " + word, error);
@@ -213,6 +213,7 @@ void FixNVESphereMTS::final_integrate()
     else
       kick_atom(i, half);
   }
+  if (n_collision > 1) end_slow_kicks();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -347,12 +348,21 @@ void FixNVESphereMTS::unpack_forward_comm(int n, int first, double *buf)
 
 int FixNVESphereMTS::pack_reverse_comm(int n, int first, double *buf)
 {
+  if (message == Message::LOADS) {
+    std::copy_n(&values[6 * first], 6 * n, buf);
+    return 6 * n;
+  }
   for (int k = 0; k < n; k++) buf[k] = ahead.activity[first + k];
   return n;
 }
 
 void FixNVESphereMTS::unpack_reverse_comm(int n, int *list, double *buf)
 {
+  if (message == Message::LOADS) {
+    for (int k = 0; k < n; k++)
+      for (int c = 0; c < 6; c++) values[6 * list[k] + c] += *buf++;
+    return;
+  }
   for (int k = 0; k < n; k++)
     if (buf[k] == apf::ACTIVE) ahead.activity[list[k]] = apf::ACTIVE;
 }
@@ -473,6 +483,36 @@ void FixNVESphereMTS::kick_free(int i)
 }
 
 /* ----------------------------------------------------------------------
+   Slow forces have acted as they were at the begin of the step. What they have changed by since
+   acts half a step long, as in velocity Verlet: else a force that varies in space, as a spring's,
+   would bring energy in every step.
+------------------------------------------------------------------------- */
+
+void FixNVESphereMTS::end_slow_kicks()
+{
+  const auto &bodies = history->bodies();
+  values.assign(6 * (atom->nlocal + atom->nghost), 0.0);
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    bodies.add_load_to(i, &values[6 * i], &values[6 * i + 3]);
+  message = Message::LOADS;
+  if (force->newton_pair) comm->reverse_comm(this, 6);
+
+  const double dt = update->dt, half = 0.5 * collision_step();
+  auto time_left = [&](double rate) {    // the last kick had the new forces
+    return std::max(0.0, dt * apf::ramp_decay(dt * rate) - half * apf::mean_decay(half * rate));
+  };
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (activity[i] == apf::FREE || !(atom->mask[i] & groupbit)) continue;
+    const auto now = slow_of(i, &values[6 * i], &values[6 * i + 3]);
+    const double time = time_left(now.rate), spin_time = time_left(now.spin_rate);
+    for (int c = 0; c < 3; c++) {
+      atom->v[i][c] += time * (now.a[c] - slow_before[i][c]);
+      atom->omega[i][c] += spin_time * (now.alpha[c] - slow_before[i][3 + c]);
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
    collision steps in the rows of the particles; the inner loop touches nothing else
 ------------------------------------------------------------------------- */
 
@@ -497,6 +537,8 @@ template <class Row> void FixNVESphereMTS::sub_step_active()
     double f[3] = {}, torque[3] = {};
     bodies.add_load_to(i, f, torque);
     const auto slow = slow_of(i, f, torque);
+    std::copy_n(slow.a, 3, slow_before[i].begin());
+    std::copy_n(slow.alpha, 3, slow_before[i].begin() + 3);
     apf::Kick<Row>::of(slow, 0.5 * dt).apply(rows[i]);
     apf::drift(rows[i], dt);
     moving.push_back(i);
@@ -586,11 +628,13 @@ void *FixNVESphereMTS::extract(const char *name, int &dim)
 void FixNVESphereMTS::grow_arrays(int nmax)
 {
   activity.resize(nmax, apf::FREE);
+  slow_before.resize(nmax);
 }
 
 void FixNVESphereMTS::copy_arrays(int i, int j, int /*delflag*/)
 {
   activity[j] = activity[i];
+  slow_before[j] = slow_before[i];
 }
 
 void FixNVESphereMTS::set_arrays(int i)
@@ -601,13 +645,15 @@ void FixNVESphereMTS::set_arrays(int i)
 int FixNVESphereMTS::pack_exchange(int i, double *buf)
 {
   buf[0] = activity[i];
-  return 1;
+  std::copy(slow_before[i].begin(), slow_before[i].end(), buf + 1);
+  return 7;
 }
 
 int FixNVESphereMTS::unpack_exchange(int i, double *buf)
 {
   activity[i] = static_cast<char>(buf[0]);
-  return 1;
+  std::copy_n(buf + 1, 6, slow_before[i].begin());
+  return 7;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -634,6 +680,6 @@ void FixNVESphereMTS::restart(char *buf)
 double FixNVESphereMTS::memory_usage()
 {
   return activity.capacity() + ahead.activity.capacity() + ahead.used.capacity() +
-      x_built.capacity() * sizeof(double) +
+      slow_before.capacity() * sizeof(slow_before[0]) + x_built.capacity() * sizeof(double) +
       (owner_rank.capacity() + owner_row.capacity()) * sizeof(int);
 }

@@ -16,6 +16,7 @@ FixStyle(nve/sphere/mts,FixNVESphereMTS);
 #include "timestep/look_ahead.h"
 #include "timestep/sub_step.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,7 @@ class FixNVESphereMTS : public Fix {
 
   int n_collision = 1;           // collision steps of the present particle step
   std::vector<char> activity;    // of local atoms: was sub-stepped in the last particle step
+  std::vector<std::array<double, 6>> slow_before;    // accelerations that it began with
   apf::LookAhead ahead;
   GhostExchange exchange;
   class FixContactHistory *history = nullptr;
@@ -80,7 +82,7 @@ class FixNVESphereMTS : public Fix {
   std::vector<double> x_built;    // positions when the neighbour list was built, [atoms][3]
   bool owners_known = false;
   std::vector<int> owner_rank, owner_row;    // of local and ghost atoms
-  enum class Message { OWNERS, ACTIVITY, VALUES } message = Message::OWNERS;
+  enum class Message { OWNERS, ACTIVITY, VALUES, LOADS } message = Message::OWNERS;
   std::vector<double> values;
 
   // global maxima at the start of a particle step
@@ -112,6 +114,7 @@ class FixNVESphereMTS : public Fix {
   apf::Slow slow_of(int i, const double *contact_force, const double *contact_torque) const;
   void kick_atom(int i, double time);
   void kick_free(int i);
+  void end_slow_kicks();
   template <class Row> void sub_step_active();
   void drift_free();
   bigint late_contacts() const;

@@ -35,7 +35,7 @@ class GhostExchange {
 
  private:
   struct Image {
-    int ghost;    // row here
+    int ghost;                 // row here
     double shift[3], dv[3];    // from the owner, as the box is now
     double behind[3];          // of the shift as it was; 0 in a box that does not change
   };

@@ -22,6 +22,13 @@ inline double mean_decay(double z)
   return -std::expm1(-z) / z;
 }
 
+// The same of t exp(-z (1 - t)) over 0 < t < 1: what is left of a force that grows through a step
+inline double ramp_decay(double z)
+{
+  if (z < 1.0e-3) return 1.0 / 2.0 - z * (1.0 / 6.0 - z / 24.0);
+  return (1.0 - mean_decay(z)) / z;
+}
+
 // Mean resistance over the step, phi = mean_decay(h k/m); positive along -slip.
 inline Vec3 mean_resistance(double k, double phi, const Vec3 &slip, const Vec3 &other)
 {

@@ -1,5 +1,5 @@
-// fix nve/sphere/mts in a box that is sheared by fix deform: images move with their velocity between
-// two particle steps, at the end of which LAMMPS moves the box.
+// fix nve/sphere/mts in a box that is sheared by fix deform: images move with their velocity
+// between two particle steps, at the end of which LAMMPS moves the box.
 
 #include "scenes.h"
 
@@ -17,17 +17,20 @@ void build_sheared(Simulation &sim, const std::vector<Sphere> &spheres)
 }
 const std::string shear = "fix flow all deform 1 xy erate 1.0 remap v\n";
 
-// Two spheres that touch across the sheared boundary, at rest: their relative speed, less that of the
-// box.
+// Two spheres that touch across the sheared boundary, at rest: their relative speed, less that of
+// the box.
 double shaking(const std::string &integrate, int every, const std::string &run)
 {
   Simulation sim;
   const double half = 0.5 - 0.5 * material.pair().delta_eq();
-  build_sheared(sim, {{4.0 + 0.6 * half, 0.8 * half, 4.0}, {4.0 - 0.6 * half, 8.0 - 0.8 * half, 4.0}});
+  build_sheared(sim,
+                {{4.0 + 0.6 * half, 0.8 * half, 4.0}, {4.0 - 0.6 * half, 8.0 - 0.8 * half, 4.0}});
   set_motion(sim, 1, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
   set_motion(sim, 2, {8.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
-  sim.run(shear + integrate + "variable w equal abs(vx[2]-vx[1]-8*round((vx[2]-vx[1])/8))\n"
-          "fix log all vector " + std::to_string(every) + " v_w\n" + run);
+  sim.run(shear + integrate +
+          "variable w equal abs(vx[2]-vx[1]-8*round((vx[2]-vx[1])/8))\n"
+          "fix log all vector " +
+          std::to_string(every) + " v_w\n" + run);
   double most = 0.0;
   for (int n = 300; n < 400; n++)
     most = std::max(most, sim.value("f_log[" + std::to_string(n) + "]"));
@@ -50,7 +53,7 @@ TEST(RanksMtsDeform, gas_has_no_late_contact)
     spheres.push_back({1.6 * (n % 5) + 0.5, 1.6 * (n / 5 % 5) + 0.5, 1.6 * (n / 25) + 0.5});
   Simulation sim;
   build_sheared(sim, spheres);
-  sim.run("velocity all create 9.0 4711 loop geom\n" + shear + mts(32) + "run 200");
+  sim.run("velocity all create 9.0 4711 loop geom\n" + shear + mts(32) + "run 100");
   EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
   EXPECT_GT(sim.value("f_nve[3]"), 5.0);
   EXPECT_EQ(lammps_get_natoms(sim.lammps()), 125.0);

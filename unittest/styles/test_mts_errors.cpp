@@ -21,8 +21,8 @@ TEST(MtsErrors, words_of_the_command)
       {"", missing + " collision", argument},
       {"collision", missing + " collision", argument},
       {"steps 8", name, "begins with keyword collision, got steps"},
-      {"collision 0", name, "auto or a number of steps >= 1, got 0"},
-      {"collision -3", name, "auto or a number of steps >= 1, got -3"},
+      {"collision 0", name, "auto, tolerance T or a number of steps >= 1, got 0"},
+      {"collision -3", name, "auto, tolerance T or a number of steps >= 1, got -3"},
       {"collision 2.5", "integer", "2.5"},
       {"collision automatic", "integer", "automatic"},
       {"collision auto safety", missing + " safety", argument},
@@ -31,14 +31,20 @@ TEST(MtsErrors, words_of_the_command)
       {"collision auto safety 0.81", name, "safety must be in (0, 0.8], got 0.81"},
       {"collision auto safety nan", "nan"},
       {"collision auto safety much", "floating point", "much"},
-      {"collision 8 safety 0.3", name, "safety has no meaning beside collision 8"},
+      {"collision 8 safety 0.3", name, "safety goes with collision auto only, got collision 8"},
+      {"collision tolerance 0.01 safety 0.3", name, "safety goes with", "got collision tolerance"},
+      {"collision tolerance", missing + " collision", argument},
+      {"collision tolerance 0", name, "tolerance must be in (0, 0.08], got 0"},
+      {"collision tolerance 0.09", name, "tolerance must be in (0, 0.08], got 0.09"},
+      {"collision tolerance small", "floating point", "small"},
       {"collision auto fluid", missing + " fluid", argument},
       {"collision auto fluid 0", name, "fluid must be >= 1, got 0"},
       {"collision auto fluid 1.5", "integer", "1.5"},
       {"collision auto lookahead", missing + " lookahead", argument},
       {"collision auto lookahead maybe", "boolean", "maybe"},
       {"collision auto 8", name, "keyword must be safety, fluid or lookahead, got 8"},
-      {"collision 8 collision 9", name, "keyword must be safety, fluid or lookahead, got collision"},
+      {"collision 8 collision 9", name,
+       "keyword must be safety, fluid or lookahead, got collision"},
   };
   for (const auto &row : table) {
     Simulation sim;
@@ -53,7 +59,7 @@ TEST(MtsErrors, what_is_right_is_taken)
 {
   for (const char *words :
        {"collision 1", "collision 100 lookahead no", "collision auto safety 0.8 fluid 10",
-        "collision auto lookahead yes fluid 1 safety 0.001"}) {
+        "collision auto lookahead yes fluid 1 safety 0.001", "collision tolerance 0.08 fluid 2"}) {
     Simulation sim;
     build(sim, {{4.0, 4.0, 4.0}, {4.99, 4.0, 4.0}});
     EXPECT_EQ(sim.error_of(std::string("fix nve all nve/sphere/mts ") + words + "\nrun 1"), "");

@@ -24,7 +24,7 @@ std::string fluid(const std::string &kind, double viscosity, const std::string &
 
 // The fluid pulls a held particle with 3 pi mu d u, however long the step is for the free one:
 // tau = d^2 rho / (18 mu), steps of 0.1, 1 and 20 tau.
-TEST(RanksMtsFlow, held_particle_bears_the_full_drag)
+TEST(MtsFlow, held_particle_bears_the_full_drag)
 {
   const double u = 1e-3, step = 64 * dt;
   for (const double ratio : {0.1, 1.0, 20.0}) {
@@ -33,15 +33,26 @@ TEST(RanksMtsFlow, held_particle_bears_the_full_drag)
     build(sim, {{4.0, 4.0, 0.5 - material.wall().delta_eq()}},
           at_floor(jkr + "damping tsuji 0.1 sliding 0.5 rolling 0.02 0.5"));
     sim.run(fluid("uniform " + digits(u) + " 0 0", mu) + mts(64) + "run 3600");
-    printf("held ratio %g: wall %g drag %g (of %g) v %g w %g\n", ratio, sim.value("f_wall[1]") / force,
-      sim.value("f_drag[1]") / force, force, sim.value("vx[1]"), largest(gather(sim, "omega")));
     EXPECT_LT(std::fabs(gather(sim, "v")[0]), 1e-6 * u) << ratio;
     EXPECT_NEAR(sim.value("f_wall[1]") / force, 1.0, 1e-4) << ratio;
     EXPECT_NEAR(sim.value("f_drag[1]") / force, 1.0, 1e-4) << ratio;
   }
 }
 
-// A free particle relaxes as exp(-t/tau) beside one that is held.
+// ... and stays where it is: at a quarter of the rolling limit an outer force makes nothing slip.
+TEST(MtsFlow, held_particle_does_not_creep)
+{
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 0.4911}},
+        at_floor(jkr + "damping tsuji 0.1 sliding 0.5 rolling 0.01 0.5"));
+  sim.run("fix push all addforce 4.5 0 0\n" + mts(40) + "run 400");
+  const double early = gather(sim, "x")[0];
+  sim.run("run 400");
+  EXPECT_LT(std::fabs(gather(sim, "x")[0] - early), 1e-7);
+  EXPECT_GT(early, 4.0 + 1e-4);    // it hangs on its springs
+}
+
+// A free particle relaxes as exp(-t/tau) beside one that is held, with velocity Verlet's error.
 TEST(RanksMtsFlow, free_particle_relaxes_beside_a_held_one)
 {
   const double step = 64 * dt, tau = 4.0 * step;
@@ -49,7 +60,7 @@ TEST(RanksMtsFlow, free_particle_relaxes_beside_a_held_one)
   build(sim, {{4.0, 4.0, 0.5 - material.wall().delta_eq()}, {4.0, 4.0, 4.0}},
         at_floor(jkr + "damping tsuji 0.1 sliding 0.5 rolling 0.02 0.5"));
   sim.run(fluid("uniform 1e-3 0 0", 1.0 / (18.0 * tau)) + mts(64) + "run 12");
-  EXPECT_NEAR(gather(sim, "v")[3] / (1e-3 * (1.0 - std::exp(-3.0))), 1.0, 1e-10);
+  EXPECT_NEAR(gather(sim, "v")[3] / (1e-3 * (1.0 - std::exp(-3.0))), 1.0, 1e-3);
   EXPECT_EQ(sim.value("f_nve[2]"), 0.5);
 }
 
@@ -72,9 +83,10 @@ State driven(const Drive &drive, const std::string &integrate, int steps)
 }
 
 const std::string verlet = "fix nve all nve/sphere\n";
-const std::string respa = verlet + "run_style respa 2 16 pair 1\ntimestep " + digits(16 * dt) + "\n";
+const std::string respa =
+    verlet + "run_style respa 2 16 pair 1\ntimestep " + digits(16 * dt) + "\n";
 
-TEST(RanksMtsFlow, sphere_in_shear_moves_as_with_verlet)
+TEST(MtsFlow, sphere_in_shear_moves_as_with_verlet)
 {
   const double arm = 0.5 - material.wall().delta_eq();
   for (const auto &[friction, least, most] : std::vector<std::tuple<std::string, double, double>>{
@@ -102,8 +114,6 @@ TEST(RanksMtsFlow, landing_tends_to_verlet_as_steps_shrink)
   auto error = [&](int n) {
     return difference(driven(drive, mts(4 * n, 0.25 * dt), 2400 / n).x, fine.x);
   };
-  printf("landing %g %g %g respa %g\n", error(16), error(8), error(4), difference(driven(drive, respa, 150).x, fine.x));
-  printf("z %g v %g\n", fine.x[2], fine.v[0]);
   EXPECT_LT(error(32), 3e-3);
   EXPECT_NEAR(error(32) / error(8), 10.0, 6.0);    // first to second order
 }

@@ -15,15 +15,9 @@ struct Impact {
 
   double R() const { return wall ? 0.5 : 0.25; }
   double m() const { return wall ? pi / 6.0 : pi / 12.0; }
-  double deepest() const
-  {
-    return std::pow(15.0 * m() / (16.0 * lambda * std::sqrt(R())), 0.4);
-  }
+  double deepest() const { return std::pow(15.0 * m() / (16.0 * lambda * std::sqrt(R())), 0.4); }
   double duration() const { return 2.9432751 * deepest(); }
-  std::string law() const
-  {
-    return " jkr " + digits(2.0 * lambda * (1.0 - 0.0625)) + " 0.25 0.0 ";
-  }
+  std::string law() const { return " jkr " + digits(2.0 * lambda * (1.0 - 0.0625)) + " 0.25 0.0 "; }
 };
 
 struct Found {
@@ -61,8 +55,8 @@ Found impacts(const Impact &impact, double step, const std::string &more)
   Found found;
   const auto now = gather(sim, "x");
   for (int n = 0; n < 41; n++)
-    found.overlap = std::max(found.overlap, impact.wall ? 0.5 - now[3 * n]
-                                                        : 1.0 - now[6 * n + 3] + now[6 * n]);
+    found.overlap =
+        std::max(found.overlap, impact.wall ? 0.5 - now[3 * n] : 1.0 - now[6 * n + 3] + now[6 * n]);
   sim.run("run " + std::to_string(2 + static_cast<int>(impact.duration() / step)));
   const auto after = gather(sim, "v");
   for (int n = 0; n < 41; n++) {
@@ -81,8 +75,6 @@ TEST(MtsLookAhead, impacts_are_as_deep_and_fast_as_they_should_be)
       for (const double step : {0.05, 0.1, 0.5}) {
         const Impact impact{lambda, wall};
         const auto found = impacts(impact, step, "");
-        printf("C3 wall %d lambda %g f2 %g: overlap %.4f KE %.4f..%.4f late %g\n", wall, lambda, step,
-          found.overlap / impact.deepest(), found.slowest*found.slowest - 1, found.fastest * found.fastest-1, found.late);
         SCOPED_TRACE(digits(lambda) + " " + digits(step) + (wall ? " wall" : " pair"));
         EXPECT_NEAR(found.overlap / impact.deepest(), 1.0, 0.02);
         EXPECT_NEAR(found.slowest * found.slowest, 1.0, 0.01);
@@ -96,7 +88,6 @@ TEST(MtsLookAhead, without_it_spheres_fly_apart)
 {
   for (const bool wall : {false, true}) {
     const auto found = impacts({1e4, wall}, 0.1, "lookahead no");
-    printf("C3 no lookahead: KE %g late %g\n", found.fastest*found.fastest-1, found.late);
     EXPECT_GT(found.fastest, 2.0) << wall;
     EXPECT_LT(found.fastest, 9.0) << wall;    // 64 times the energy is the most
     EXPECT_GT(found.late, 0.0) << wall;
@@ -150,7 +141,6 @@ TEST(MtsLookAhead, no_impact_is_missed)
     missed += std::fabs(std::sqrt(kick) / (2.0 * head_on[k]) - 1.0) > 0.3;
     worst = std::max(worst, std::fabs(energy - 1.0));
   }
-  printf("C4 missed %d worst energy %g late %g\n", missed, worst, sim.value("f_nve[5]"));
   EXPECT_EQ(missed, 0);
   EXPECT_LT(worst, 0.02);
   EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
@@ -183,8 +173,6 @@ TEST(MtsLookAhead, change_of_level_leaves_the_parabola_alone)
       changes += sim.value("f_log[" + std::to_string(n) + "]") !=
           sim.value("f_log[" + std::to_string(n - 1) + "]");
     const double t = 40.0 * step;
-    printf("C5 changes %d  x err %g v err %g\n", changes, gather(sim,"x")[0] / (2.0 + t / step + 0.5 * a * t * t)-1,
-          gather(sim,"v")[0] / (1.0 / step + a * t) -1);
     EXPECT_GE(changes, 38);
     EXPECT_EQ(sim.value("f_nve[3]"), 0.0);
     EXPECT_NEAR(gather(sim, "x")[0] / (2.0 + t / step + 0.5 * a * t * t), 1.0, 1e-12);
@@ -218,7 +206,6 @@ TEST(MtsLookAhead, a_pair_keeps_its_momentum)
     parted += sim.value("f_nve[2]") == 0.0;
     EXPECT_LT(difference(momentum(), before), 1e-13) << n;
   }
-  printf("C5 met %g parted %g\n", met, parted);
   EXPECT_GT(met, 0.0);
   EXPECT_GT(parted, 1.0);
   EXPECT_GT(std::fabs(gather(sim, "v")[0] - 20.0), 0.1);

@@ -1,5 +1,5 @@
-// fix nve/sphere/mts knows nothing of ranks, boundaries, cells and who owns a pair: each scene equals
-// the same scene computed well inside one box by velocity Verlet at the collision step.
+// fix nve/sphere/mts knows nothing of ranks, boundaries, cells and who owns a pair: each scene
+// equals the same scene computed well inside one box by velocity Verlet at the collision step.
 
 #include "scenes.h"
 
@@ -11,7 +11,7 @@ const std::vector<std::string> both = {"on", "off"};
 
 // An aggregate of six, its contacts off their rest, and a bullet that hits it.
 const std::vector<Sphere> aggregate = {
-    {0.0, 0.0, 0.0},        {0.985, 0.0, 0.0},     {0.49, 0.85, 0.0},    {0.49, 0.29, 0.81},
+    {0.0, 0.0, 0.0},         {0.985, 0.0, 0.0},        {0.49, 0.85, 0.0},   {0.49, 0.29, 0.81},
     {-0.7, -0.69, 0.0, 1.0}, {0.49, 0.29, -0.36, 0.2}, {2.1, 0.7, 0.3, 0.5}};
 
 struct Journey {
@@ -58,8 +58,6 @@ const State &reference()
 void expect_reference(const Journey &journey, double tolerance = 1e-9)
 {
   const State state = travelled(journey, mts(16), 100);
-  printf("x %g v %g w %g f %g t %g\n", difference(state.x, reference().x), difference(state.v, reference().v),
-    difference(state.omega, reference().omega), difference(state.f, reference().f), difference(state.torque, reference().torque));
   expect_same(state, reference(), tolerance);
 }
 

@@ -1,5 +1,6 @@
-// fix nve/sphere/mts: runs that stop and go on, restarts in mid-contact, and what other commands see
-// of contacts after a step: that is what a velocity Verlet step of the collision step's length gives.
+// fix nve/sphere/mts: runs that stop and go on, restarts in mid-contact, and what other commands
+// see of contacts after a step: that is what a velocity Verlet step of the collision step's length
+// gives.
 
 #include "scenes.h"
 
@@ -39,8 +40,8 @@ TEST(RanksMtsRuns, two_runs_are_one)
   for (const auto &integrate : {fixed, automatic}) {
     const State reference = after(integrate + "run 40");
     ASSERT_GT(largest(reference.torque), 0.5);
-    for (const char *cut : {"run 1\nrun 39", "run 0\nrun 40", "run 17\nrun 0\nrun 23",
-                            "run 40 every 8 NULL"}) {
+    for (const char *cut :
+         {"run 1\nrun 39", "run 0\nrun 40", "run 17\nrun 0\nrun 23", "run 40 every 8 NULL"}) {
       SCOPED_TRACE(integrate + cut);
       expect_same(after(integrate + cut), reference, 1e-10);
     }
@@ -80,14 +81,15 @@ TEST(RanksMtsRuns, restart_goes_on)
 // ---------------------------------------------------------------------------------------------
 // energy, pressure, rows of pair/local and the load of the wall, at the end of the same time
 
-const std::string outputs = "compute p all pressure NULL pair\n"
-                            "compute c all pair/local dist force p1 p4 p5 p6 p7 p8 p9 p10 p11\n"
-                            "compute sum all reduce sum c_c[*] inputs local\n"
-                            "compute most all reduce maxabs c_c[*] inputs local\n"
-                            "fix_modify wall energy yes virial yes\ncompute w all pressure NULL fix\n"
-                            "compute s all stress/atom NULL\ncompute S all reduce maxabs c_s[*]\n"
-                            "thermo_style custom step pe ke c_p[*] c_w[*] c_sum[*] c_most[*] c_S[*] "
-                            "f_wall[*]\nthermo_modify norm no\n";
+const std::string outputs =
+    "compute p all pressure NULL pair\n"
+    "compute c all pair/local dist force p1 p4 p5 p6 p7 p8 p9 p10 p11\n"
+    "compute sum all reduce sum c_c[*] inputs local\n"
+    "compute most all reduce maxabs c_c[*] inputs local\n"
+    "fix_modify wall energy yes virial yes\ncompute w all pressure NULL fix\n"
+    "compute s all stress/atom NULL\ncompute S all reduce maxabs c_s[*]\n"
+    "thermo_style custom step pe ke c_p[*] c_w[*] c_sum[*] c_most[*] c_S[*] "
+    "f_wall[*]\nthermo_modify norm no\n";
 
 std::vector<double> seen(Simulation &sim)
 {
@@ -123,8 +125,8 @@ TEST(RanksMtsRuns, outputs_are_those_of_verlet_at_the_collision_step)
 }
 
 // ---------------------------------------------------------------------------------------------
-// elastic contacts without friction depend on positions alone, where there are no necks: a dump shows
-// the run again
+// elastic contacts without friction depend on positions alone, where there are no necks: a dump
+// shows the run again
 
 TEST(RanksMtsRuns, rerun_of_a_dump_shows_the_run)
 {
@@ -134,7 +136,9 @@ TEST(RanksMtsRuns, rerun_of_a_dump_shows_the_run)
     {
       Simulation sim;
       build_pile(sim);
-      sim.run("velocity all set 1 0.5 0.25\nset atom 2 x 4.492\npair_style granular/adhesive\npair_coeff * *" + jkr +
+      sim.run("velocity all set 1 0.5 0.25\nset atom 2 x 4.492\npair_style "
+              "granular/adhesive\npair_coeff * *" +
+              jkr +
               "\nfix g all gravity 500 vector 1 0.5 -1\nthermo_modify norm no\n"
               "compute p all pressure NULL pair\nvariable e equal pe\nvariable p equal c_p\n"
               "variable n equal f_nve[3]\n" +
@@ -153,12 +157,12 @@ TEST(RanksMtsRuns, rerun_of_a_dump_shows_the_run)
     std::remove(table.c_str());
     return all;
   };
-  const auto run = rows("dump d all custom 4 " + file +
-                        " id type x y z vx vy vz\ndump_modify d sort id format float %.17g\nrun 40");
+  const auto run =
+      rows("dump d all custom 4 " + file +
+           " id type x y z vx vy vz\ndump_modify d sort id format float %.17g\nrun 40");
   const auto again = rows("rerun " + file + " dump x y z vx vy vz");
   std::remove(file.c_str());
   ASSERT_EQ(run.size(), 44u);    // step, energy, pressure and contacts of eleven steps
-  printf("rerun %g\n", difference(again, run));
   for (size_t n = 0; n < run.size(); n++)
     EXPECT_NEAR(again[n], run[n], 1e-9 * std::max(1.0, std::fabs(run[n]))) << n;
 }

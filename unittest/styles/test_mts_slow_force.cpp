@@ -37,7 +37,6 @@ TEST(MtsSlowForce, spring_brings_no_energy)
 {
   for (const bool bound : {false, true}) {
     const auto is = swing(bound, mts(16), 8000);
-    printf("slow force bound %d: %g %g\n", bound, is.energy_early, is.energy_late);
     EXPECT_NEAR(is.energy_early, 1.0, 0.01) << bound;
     EXPECT_NEAR(is.energy_late, 1.0, 0.01) << bound;
   }
@@ -49,7 +48,6 @@ TEST(MtsSlowForce, error_is_of_second_order_in_the_particle_step)
   auto error = [&](int n) {
     return difference(swing(true, mts(n), 1600 / n).state.v, exact.state.v);
   };
-  printf("slow force error 16 %g 4 %g\n", error(16), error(4));
   EXPECT_LT(error(16), 0.02);
   EXPECT_NEAR(error(16) / error(4), 255.0 / 15.0, 6.0);
 }
