@@ -3,6 +3,7 @@
 #include "contact_kernel.h"
 #include "pack.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 
@@ -20,10 +21,14 @@ using Real = Pack<32>;
 using Real = Pack<16>;
 #endif
 
+// Contacts that are treated together: a whole block, or a part of it.
+constexpr int width = Real::width;
+static_assert(ContactList::width % width == 0, "a group lies in one block");
+
 template <class Frame> using RowOf = std::conditional_t<Frame::planar, PlaneRow, SpaceRow>;
 
-// The bodies and kinds of a block's contacts. An incomplete block is filled up with its last
-// contact between copies of its bodies, so that all blocks are treated alike.
+// The bodies and kinds of a group of contacts. An incomplete group is filled up with its last
+// contact between copies of its bodies, so that all groups are treated alike.
 template <class Row> struct Members {
   Row *i[width], *j[width];
   int kind[width];
@@ -48,9 +53,10 @@ template <class Row> struct Members {
   }
 };
 
-// Constants of the block's contacts, which often are those of the block before.
-class BlockConstants {
+// Constants of a group's contacts, which often are those of the group before.
+class GroupConstants {
  public:
+  GroupConstants() { std::fill(loaded, loaded + width, -1); }
   APF_INLINE const ConstantsOf<Real> &of(const KindsInUse &kinds, const int (&wanted)[width])
   {
     if (std::memcmp(wanted, loaded, sizeof(loaded)) != 0) load(kinds, wanted);
@@ -61,7 +67,7 @@ class BlockConstants {
   static constexpr int n = sizeof(ConstantsOf<double>) / sizeof(double);
   static_assert(n % 4 == 0, "groups of four");
   ConstantsOf<Real> constants;
-  int loaded[width] = {-1, -1, -1, -1, -1, -1, -1, -1};
+  int loaded[width];
 
   __attribute__((noinline)) void load(const KindsInUse &kinds, const int (&wanted)[width])
   {
@@ -176,49 +182,53 @@ using PlaneMemory = ContactMemory<PlaneFrame<Real>>;
 using SpaceMemory = ContactMemory<SpaceFrame<Real>>;
 
 template <bool sliding, bool twisting, bool rolling>
-APF_INLINE void recall(ContactList &list, int b, PlaneMemory &memory)
+APF_INLINE void recall(ContactList &list, int first, PlaneMemory &memory)
 {
-  const auto &block = list.blocks[b];
-  if constexpr (sliding) memory.sliding = Real::load(block.sliding);
-  if constexpr (rolling) memory.rolling = Real::load(block.rolling);
+  const auto &block = list.blocks[first / ContactList::width];
+  const int at = first % ContactList::width;
+  if constexpr (sliding) memory.sliding = Real::load(block.sliding + at);
+  if constexpr (rolling) memory.rolling = Real::load(block.rolling + at);
 }
 
 template <bool sliding, bool twisting, bool rolling>
-APF_INLINE void keep(ContactList &list, int b, const PlaneMemory &memory)
+APF_INLINE void keep(ContactList &list, int first, const PlaneMemory &memory)
 {
-  auto &block = list.blocks[b];
-  if constexpr (sliding) memory.sliding.store(block.sliding);
-  if constexpr (rolling) memory.rolling.store(block.rolling);
+  auto &block = list.blocks[first / ContactList::width];
+  const int at = first % ContactList::width;
+  if constexpr (sliding) memory.sliding.store(block.sliding + at);
+  if constexpr (rolling) memory.rolling.store(block.rolling + at);
 }
 
 template <bool sliding, bool twisting, bool rolling>
-APF_INLINE void recall(ContactList &list, int b, SpaceMemory &memory)
+APF_INLINE void recall(ContactList &list, int first, SpaceMemory &memory)
 {
-  const auto &block = list.blocks[b];
-  const auto &space = list.space_blocks[b];
-  const auto vector = [](const auto &x, const auto &y, const auto &z) {
-    return Vector3<Real>{Real::load(x), Real::load(y), Real::load(z)};
+  const auto &block = list.blocks[first / ContactList::width];
+  const auto &space = list.space_blocks[first / ContactList::width];
+  const int at = first % ContactList::width;
+  const auto vector = [at](const auto &x, const auto &y, const auto &z) {
+    return Vector3<Real>{Real::load(x + at), Real::load(y + at), Real::load(z + at)};
   };
   if constexpr (sliding) memory.sliding = vector(block.sliding, space.sliding[0], space.sliding[1]);
   if constexpr (rolling) memory.rolling = vector(block.rolling, space.rolling[0], space.rolling[1]);
-  if constexpr (twisting) memory.twisting = Real::load(space.twisting);
+  if constexpr (twisting) memory.twisting = Real::load(space.twisting + at);
   if constexpr (sliding || rolling)
     memory.normal = vector(space.normal[0], space.normal[1], space.normal[2]);
 }
 
 template <bool sliding, bool twisting, bool rolling>
-APF_INLINE void keep(ContactList &list, int b, const SpaceMemory &memory)
+APF_INLINE void keep(ContactList &list, int first, const SpaceMemory &memory)
 {
-  auto &block = list.blocks[b];
-  auto &space = list.space_blocks[b];
-  const auto store = [](const Vector3<Real> &u, auto &x, auto &y, auto &z) {
-    u.x.store(x);
-    u.y.store(y);
-    u.z.store(z);
+  auto &block = list.blocks[first / ContactList::width];
+  auto &space = list.space_blocks[first / ContactList::width];
+  const int at = first % ContactList::width;
+  const auto store = [at](const Vector3<Real> &u, auto &x, auto &y, auto &z) {
+    u.x.store(x + at);
+    u.y.store(y + at);
+    u.z.store(z + at);
   };
   if constexpr (sliding) store(memory.sliding, block.sliding, space.sliding[0], space.sliding[1]);
   if constexpr (rolling) store(memory.rolling, block.rolling, space.rolling[0], space.rolling[1]);
-  if constexpr (twisting) memory.twisting.store(space.twisting);
+  if constexpr (twisting) memory.twisting.store(space.twisting + at);
   if constexpr (sliding || rolling)
     store(memory.normal, space.normal[0], space.normal[1], space.normal[2]);
 }
@@ -284,26 +294,26 @@ APF_INLINE int all_blocks(ContactList &list, Bodies &bodies, ContactTimes times,
 {
   auto *rows = bodies.rows<RowOf<Frame>>();
   const int size = list.size();
-  BlockConstants constants;
+  GroupConstants constants;
   Real ended = 0.0;
   RowOf<Frame> copies[2];
   for (int first = 0; first < size; first += width) {
-    const int b = first / width;
+    const int at = first % ContactList::width;
     const Members members(list, rows, first, copies);
-    auto &block = list.blocks[b];
+    auto &block = list.blocks[first / ContactList::width];
     const ConstantsOf<Real> &c = constants.of(list.kinds, members.kind);
     ContactMemory<Frame> memory;
-    recall<sliding, twisting, rolling>(list, b, memory);
+    recall<sliding, twisting, rolling>(list, first, memory);
 
     ContactInput<Frame> in = gather(members);
-    in.crowd_mass = Real::load(block.crowd_mass);
-    if constexpr (rolling) in.crowd_roll = Real::load(block.crowd_roll);
+    in.crowd_mass = Real::load(block.crowd_mass + at);
+    if constexpr (rolling) in.crowd_roll = Real::load(block.crowd_roll + at);
     const auto out = contact_law<Frame, adhesion, sliding, twisting, rolling>(c, in, times, memory);
     scatter<sliding || rolling>(members, out);
 
     if (!reports || times.advance > 0.0)    // a look at the parts must not change the run
-      keep<sliding, twisting, rolling>(list, b, memory);
-    out.overlap.store(block.overlap);
+      keep<sliding, twisting, rolling>(list, first, memory);
+    out.overlap.store(block.overlap + at);
     ended = ended + select(out.overlap < c.break_overlap, Real(1.0), Real(0.0));
     if constexpr (reports)
       for (int l = 0; l < width && first + l < size; l++)
@@ -312,7 +322,7 @@ APF_INLINE int all_blocks(ContactList &list, Bodies &bodies, ContactTimes times,
   double sum = 0.0;
   for (int l = 0; l < width; l++) sum += ended.lane(l);
   // the last contact stood also in the lanes behind it
-  const int repeated = static_cast<int>(list.blocks.size()) * width - size;
+  const int repeated = (width - size % width) % width;
   return static_cast<int>(sum) - (repeated && list.ended(size - 1) ? repeated : 0);
 }
 

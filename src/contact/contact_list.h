@@ -127,7 +127,7 @@ class KindsInUse {
 
 class ContactList {
  public:
-  static constexpr int width = 8;    // contacts of a block
+  static constexpr int width = 16;    // contacts of a block
   using Lanes = double[width];
 
   // what a step reads and writes of all contacts, and of those in space alone

@@ -1,6 +1,8 @@
-// Eight numbers, one of each contact of a block, in vector registers: one of AVX-512, two of AVX2,
-// four of SSE2 or NEON. A Pack answers to the operations of a double that laws use, so a law is
-// written once. Made of the vector extensions of GCC and Clang, without intrinsics.
+// Several numbers, one of each contact of a group, in two vector registers: sixteen of AVX-512, eight
+// of AVX2, four of SSE2 or NEON. One register would leave the processor waiting for roots and
+// divisions, and there are not enough for more. A Pack answers to the operations of a double that
+// laws use, so a law is written once. Made of the vector extensions of GCC and Clang, without
+// intrinsics.
 
 #ifndef APF_PACK_H
 #define APF_PACK_H
@@ -10,8 +12,6 @@
 #include <cstring>
 
 namespace apf {
-
-constexpr int width = 8;    // contacts of a block
 
 using Pair = double __attribute__((vector_size(16)));
 using Quad = double __attribute__((vector_size(32)));
@@ -31,7 +31,7 @@ template <> struct RegisterOf<64> {
 template <int bytes> struct Pack {
   using Register = typename RegisterOf<bytes>::Type;
   using Bits = decltype(Register{} < Register{});
-  static constexpr int lanes = bytes / sizeof(double), n = width / lanes;
+  static constexpr int lanes = bytes / sizeof(double), n = 2, width = n * lanes;
   struct Mask {
     Bits part[n];
   };
@@ -171,29 +171,30 @@ template <class Part> APF_INLINE void add_to(double *to, const Part &part)
 template <int bytes, class Row> APF_INLINE void from_rows(Row row, Pack<bytes> (&to)[2])
 {
   if constexpr (bytes == 16) {
-    for (int p = 0; p < 4; p++) {
+    for (int p = 0; p < 2; p++) {
       const Pair a = row(2 * p, 0, Pair()), b = row(2 * p + 1, 0, Pair());
       to[0].part[p] = APF_SHUFFLE(a, b, 0, 2);
       to[1].part[p] = APF_SHUFFLE(a, b, 1, 3);
     }
   } else {
-    Quad even[2], odd[2];
-    for (int p = 0; p < 2; p++) {
-      const Pair a = row(4 * p, 0, Pair()), b = row(4 * p + 1, 0, Pair());
-      const Pair c = row(4 * p + 2, 0, Pair()), d = row(4 * p + 3, 0, Pair());
-      even[p] = APF_SHUFFLE(a, c, 0, 1, 2, 3);
-      odd[p] = APF_SHUFFLE(b, d, 0, 1, 2, 3);
+    constexpr int quads = bytes / 16;
+    Quad even[quads], odd[quads];
+    for (int q = 0; q < quads; q++) {
+      const Pair a = row(4 * q, 0, Pair()), b = row(4 * q + 1, 0, Pair());
+      const Pair c = row(4 * q + 2, 0, Pair()), d = row(4 * q + 3, 0, Pair());
+      even[q] = APF_SHUFFLE(a, c, 0, 1, 2, 3);
+      odd[q] = APF_SHUFFLE(b, d, 0, 1, 2, 3);
     }
-    if constexpr (bytes == 32) {
-      for (int p = 0; p < 2; p++) {
+    for (int p = 0; p < 2; p++) {
+      if constexpr (bytes == 32) {
         to[0].part[p] = APF_SHUFFLE(even[p], odd[p], 0, 4, 2, 6);
         to[1].part[p] = APF_SHUFFLE(even[p], odd[p], 1, 5, 3, 7);
+      } else {
+        const auto e = APF_SHUFFLE(even[2 * p], even[2 * p + 1], 0, 1, 2, 3, 4, 5, 6, 7);
+        const auto o = APF_SHUFFLE(odd[2 * p], odd[2 * p + 1], 0, 1, 2, 3, 4, 5, 6, 7);
+        to[0].part[p] = APF_SHUFFLE(e, o, 0, 8, 2, 10, 4, 12, 6, 14);
+        to[1].part[p] = APF_SHUFFLE(e, o, 1, 9, 3, 11, 5, 13, 7, 15);
       }
-    } else {
-      const auto e = APF_SHUFFLE(even[0], even[1], 0, 1, 2, 3, 4, 5, 6, 7);
-      const auto o = APF_SHUFFLE(odd[0], odd[1], 0, 1, 2, 3, 4, 5, 6, 7);
-      to[0].part[0] = APF_SHUFFLE(e, o, 0, 8, 2, 10, 4, 12, 6, 14);
-      to[1].part[0] = APF_SHUFFLE(e, o, 1, 9, 3, 11, 5, 13, 7, 15);
     }
   }
 }
@@ -201,7 +202,7 @@ template <int bytes, class Row> APF_INLINE void from_rows(Row row, Pack<bytes> (
 template <int bytes, class Row> APF_INLINE void from_rows(Row row, Pack<bytes> (&to)[4])
 {
   if constexpr (bytes == 16) {
-    for (int p = 0; p < 4; p++)
+    for (int p = 0; p < 2; p++)
       for (int c = 0; c < 4; c += 2) {
         const Pair a = row(2 * p, c, Pair()), b = row(2 * p + 1, c, Pair());
         to[c].part[p] = APF_SHUFFLE(a, b, 0, 2);
@@ -223,15 +224,17 @@ template <int bytes, class Row> APF_INLINE void from_rows(Row row, Pack<bytes> (
       const Quad low = row(l, 0, Quad()), high = row(l + 4, 0, Quad());
       return APF_SHUFFLE(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
     };
-    const auto a = two(0), b = two(1), c = two(2), d = two(3);
-    const auto ab02 = APF_SHUFFLE(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-    const auto ab13 = APF_SHUFFLE(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-    const auto cd02 = APF_SHUFFLE(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
-    const auto cd13 = APF_SHUFFLE(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
-    to[0].part[0] = APF_SHUFFLE(ab02, cd02, 0, 1, 8, 9, 4, 5, 12, 13);
-    to[1].part[0] = APF_SHUFFLE(ab13, cd13, 0, 1, 8, 9, 4, 5, 12, 13);
-    to[2].part[0] = APF_SHUFFLE(ab02, cd02, 2, 3, 10, 11, 6, 7, 14, 15);
-    to[3].part[0] = APF_SHUFFLE(ab13, cd13, 2, 3, 10, 11, 6, 7, 14, 15);
+    for (int p = 0; p < 2; p++) {
+      const auto a = two(8 * p), b = two(8 * p + 1), c = two(8 * p + 2), d = two(8 * p + 3);
+      const auto ab02 = APF_SHUFFLE(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+      const auto ab13 = APF_SHUFFLE(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+      const auto cd02 = APF_SHUFFLE(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+      const auto cd13 = APF_SHUFFLE(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+      to[0].part[p] = APF_SHUFFLE(ab02, cd02, 0, 1, 8, 9, 4, 5, 12, 13);
+      to[1].part[p] = APF_SHUFFLE(ab13, cd13, 0, 1, 8, 9, 4, 5, 12, 13);
+      to[2].part[p] = APF_SHUFFLE(ab02, cd02, 2, 3, 10, 11, 6, 7, 14, 15);
+      to[3].part[p] = APF_SHUFFLE(ab13, cd13, 2, 3, 10, 11, 6, 7, 14, 15);
+    }
   }
 }
 
@@ -240,7 +243,7 @@ template <int bytes, class Takes>
 APF_INLINE void to_rows(const Pack<bytes> &x, const Pack<bytes> &y, Takes takes)
 {
   if constexpr (bytes == 16) {
-    for (int p = 0; p < 4; p++) {
+    for (int p = 0; p < 2; p++) {
       takes(2 * p, 0, Pair(APF_SHUFFLE(x.part[p], y.part[p], 0, 2)));
       takes(2 * p + 1, 0, Pair(APF_SHUFFLE(x.part[p], y.part[p], 1, 3)));
     }
@@ -254,16 +257,18 @@ APF_INLINE void to_rows(const Pack<bytes> &x, const Pack<bytes> &y, Takes takes)
       takes(4 * p + 3, 0, Pair(APF_SHUFFLE(odd, odd, 2, 3)));
     }
   } else {
-    const auto even = APF_SHUFFLE(x.part[0], y.part[0], 0, 8, 2, 10, 4, 12, 6, 14);
-    const auto odd = APF_SHUFFLE(x.part[0], y.part[0], 1, 9, 3, 11, 5, 13, 7, 15);
-    takes(0, 0, Pair(APF_SHUFFLE(even, even, 0, 1)));
-    takes(1, 0, Pair(APF_SHUFFLE(odd, odd, 0, 1)));
-    takes(2, 0, Pair(APF_SHUFFLE(even, even, 2, 3)));
-    takes(3, 0, Pair(APF_SHUFFLE(odd, odd, 2, 3)));
-    takes(4, 0, Pair(APF_SHUFFLE(even, even, 4, 5)));
-    takes(5, 0, Pair(APF_SHUFFLE(odd, odd, 4, 5)));
-    takes(6, 0, Pair(APF_SHUFFLE(even, even, 6, 7)));
-    takes(7, 0, Pair(APF_SHUFFLE(odd, odd, 6, 7)));
+    for (int p = 0; p < 2; p++) {
+      const auto even = APF_SHUFFLE(x.part[p], y.part[p], 0, 8, 2, 10, 4, 12, 6, 14);
+      const auto odd = APF_SHUFFLE(x.part[p], y.part[p], 1, 9, 3, 11, 5, 13, 7, 15);
+      takes(8 * p, 0, Pair(APF_SHUFFLE(even, even, 0, 1)));
+      takes(8 * p + 1, 0, Pair(APF_SHUFFLE(odd, odd, 0, 1)));
+      takes(8 * p + 2, 0, Pair(APF_SHUFFLE(even, even, 2, 3)));
+      takes(8 * p + 3, 0, Pair(APF_SHUFFLE(odd, odd, 2, 3)));
+      takes(8 * p + 4, 0, Pair(APF_SHUFFLE(even, even, 4, 5)));
+      takes(8 * p + 5, 0, Pair(APF_SHUFFLE(odd, odd, 4, 5)));
+      takes(8 * p + 6, 0, Pair(APF_SHUFFLE(even, even, 6, 7)));
+      takes(8 * p + 7, 0, Pair(APF_SHUFFLE(odd, odd, 6, 7)));
+    }
   }
 }
 
@@ -288,18 +293,20 @@ APF_INLINE void to_rows(const Pack<bytes> &x, const Pack<bytes> &y, const Pack<b
       takes(4 * p + 3, 0, Quad(APF_SHUFFLE(xy13, zw13, 2, 3, 6, 7)));
     }
   } else {
-    const auto xy02 = APF_SHUFFLE(x.part[0], y.part[0], 0, 8, 2, 10, 4, 12, 6, 14);
-    const auto xy13 = APF_SHUFFLE(x.part[0], y.part[0], 1, 9, 3, 11, 5, 13, 7, 15);
-    const auto zw02 = APF_SHUFFLE(z.part[0], w.part[0], 0, 8, 2, 10, 4, 12, 6, 14);
-    const auto zw13 = APF_SHUFFLE(z.part[0], w.part[0], 1, 9, 3, 11, 5, 13, 7, 15);
     const auto two = [&takes](int l, const auto &both) {
       takes(l, 0, Quad(APF_SHUFFLE(both, both, 0, 1, 2, 3)));
       takes(l + 4, 0, Quad(APF_SHUFFLE(both, both, 4, 5, 6, 7)));
     };
-    two(0, APF_SHUFFLE(xy02, zw02, 0, 1, 8, 9, 4, 5, 12, 13));
-    two(1, APF_SHUFFLE(xy13, zw13, 0, 1, 8, 9, 4, 5, 12, 13));
-    two(2, APF_SHUFFLE(xy02, zw02, 2, 3, 10, 11, 6, 7, 14, 15));
-    two(3, APF_SHUFFLE(xy13, zw13, 2, 3, 10, 11, 6, 7, 14, 15));
+    for (int p = 0; p < 2; p++) {
+      const auto xy02 = APF_SHUFFLE(x.part[p], y.part[p], 0, 8, 2, 10, 4, 12, 6, 14);
+      const auto xy13 = APF_SHUFFLE(x.part[p], y.part[p], 1, 9, 3, 11, 5, 13, 7, 15);
+      const auto zw02 = APF_SHUFFLE(z.part[p], w.part[p], 0, 8, 2, 10, 4, 12, 6, 14);
+      const auto zw13 = APF_SHUFFLE(z.part[p], w.part[p], 1, 9, 3, 11, 5, 13, 7, 15);
+      two(8 * p, APF_SHUFFLE(xy02, zw02, 0, 1, 8, 9, 4, 5, 12, 13));
+      two(8 * p + 1, APF_SHUFFLE(xy13, zw13, 0, 1, 8, 9, 4, 5, 12, 13));
+      two(8 * p + 2, APF_SHUFFLE(xy02, zw02, 2, 3, 10, 11, 6, 7, 14, 15));
+      two(8 * p + 3, APF_SHUFFLE(xy13, zw13, 2, 3, 10, 11, 6, 7, 14, 15));
+    }
   }
 }
 

@@ -7,7 +7,8 @@
 //
 // Slow forces act evenly over the sub-steps. Given as a kick at each end of the step, as r-RESPA
 // does it, they would shake contacts with an amplitude that grows with the particle step, and
-// mobilise friction that the same force at rest does not.
+// mobilise friction that the same force at rest does not. What they have changed by at the end of
+// the step is given half a step long (fix nve/sphere/mts), which makes the order two.
 
 #ifndef APF_SUB_STEP_H
 #define APF_SUB_STEP_H
