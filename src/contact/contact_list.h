@@ -215,14 +215,16 @@ class ContactList {
   {
     const bool adaptive = stiffest.rule.tolerance > 0.0;
     for (int k = 0; k < size(); k++) {
-      double speed2 = 0.0;
-      if (adaptive) {
-        const auto &c = kinds.constants(kind[k]);
-        speed2 = stiffest.fastest2(
-            contact_speed2(rows[i[k]], rows[j[k]], c.radius_i, c.radius_sum - c.radius_i),
-            energy_above_rest(k) / mode(k).mass, acceleration(k));
+      if (!adaptive) {
+        stiffest.include(mode(k), overlap(k), 0.0);
+        continue;
       }
-      stiffest.include(mode(k), overlap(k), speed2);
+      const auto &c = kinds.constants(kind[k]);
+      const double speed2 =
+          contact_speed2(rows[i[k]], rows[j[k]], c.radius_i, c.radius_sum - c.radius_i);
+      stiffest.include(mode(k), overlap(k), speed2, acceleration(k), [&] {
+        return energy_above_rest(k) / mode(k).mass;
+      });
     }
   }
 

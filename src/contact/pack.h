@@ -1,5 +1,5 @@
-// Several numbers, one of each contact of a group, in two vector registers: sixteen of AVX-512, eight
-// of AVX2, four of SSE2 or NEON. One register would leave the processor waiting for roots and
+// Several numbers, one of each contact of a group, in two vector registers: sixteen of AVX-512,
+// eight of AVX2, four of SSE2 or NEON. One register would leave the processor waiting for roots and
 // divisions, and there are not enough for more. A Pack answers to the operations of a double that
 // laws use, so a law is written once. Made of the vector extensions of GCC and Clang, without
 // intrinsics.

@@ -78,23 +78,39 @@ struct Stiffest {
     include(contact, 0.0, speed * speed + (touches ? 0.607082 * contact.slow2 : 0.0));
   }
 
-  // The largest speed squared that a contact may come to have within the step: its springs give
-  // back what they hold, unless other contacts hold them.
-  double fastest2(double speed2, double energy_per_mass, double acceleration) const
+  // A contact whose surfaces move at a relative speed, squared. Within the step it may come to move
+  // as fast as present accelerations make it, or as its springs can, whose energy per mass
+  // energy_per_mass() returns; that costs a root of the law and is asked for only where it matters.
+  template <class Energy>
+  void include(const StiffestMode &contact, double overlap, double speed2,
+               double relative_acceleration, Energy energy_per_mass)
   {
-    const double speed = std::sqrt(speed2) + acceleration * step;
-    return std::min(speed * speed, speed2 + 2.0 * energy_per_mass);
+    const double speed = std::sqrt(speed2) + relative_acceleration * step;
+    if (demand_of(contact, overlap, speed * speed) <= demand2)
+      frequency2 = std::max(frequency2, frequency2_of(contact, overlap));
+    else
+      include(contact, overlap, std::min(speed * speed, speed2 + 2.0 * energy_per_mass()));
   }
 
+  // speed2: the largest that may come about, squared
   void include(const StiffestMode &contact, double overlap, double speed2)
   {
-    const double deepest = std::max({overlap, contact.impact * v45, contact.least});
-    const double f2 = contact.frequency * contact.frequency * std::sqrt(deepest / contact.overlap);
-    const double d2 = f2 / rule.kappa2(contact.slow2, speed2);
-    frequency2 = std::max(frequency2, f2);
+    frequency2 = std::max(frequency2, frequency2_of(contact, overlap));
+    const double d2 = demand_of(contact, overlap, speed2);
     if (d2 <= demand2) return;
     demand2 = d2;
     mode = contact.mode;
+  }
+
+ private:
+  double frequency2_of(const StiffestMode &contact, double overlap) const
+  {
+    const double deepest = std::max({overlap, contact.impact * v45, contact.least});
+    return contact.frequency * contact.frequency * std::sqrt(deepest / contact.overlap);
+  }
+  double demand_of(const StiffestMode &contact, double overlap, double speed2) const
+  {
+    return frequency2_of(contact, overlap) / rule.kappa2(contact.slow2, speed2);
   }
 };
 
