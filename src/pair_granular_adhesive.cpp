@@ -88,8 +88,11 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   // a ghost's force belongs to another rank, which has computed it as well where newton is off
   if (ended) correct_ends(times.advance);
   const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
-  for (int i = 0; i < n; i++) bodies.add_load_to(i, atom->f[i], atom->torque[i]);
+  if (n)
+    bodies.add_loads_to_all(n, reinterpret_cast<double(*)[3]>(atom->f[0]),
+                            reinterpret_cast<double(*)[3]>(atom->torque[0]));
   if (tallied) tally(eflag);
+  parts = {};    // memory is for steps that look at them
   if (ended) remove_ended(false);
   parts_step = -1;
 }

@@ -34,13 +34,14 @@ class UsedVelocity {
   void use(const Atom *atom)
   {
     use_positions(atom);
-    for (int i = 0; i < atom->nlocal + atom->nghost; i++)
-      bodies.set_motion(i, atom->v[i], atom->omega[i]);
+    const int n = atom->nlocal + atom->nghost;
+    if (n) bodies.set_motion_all(n, rows_of(atom->v), rows_of(atom->omega));
   }
 
   void use_positions(const Atom *atom)
   {
-    for (int i = 0; i < atom->nlocal + atom->nghost; i++) bodies.place(i, atom->x[i]);
+    const int n = atom->nlocal + atom->nghost;
+    if (n) bodies.place_all(n, rows_of(atom->x));
   }
 
   // true if all local atoms have the velocities with which the last run ended
@@ -81,6 +82,12 @@ class UsedVelocity {
  private:
   using Six = std::array<double, 6>;    // velocity and angular velocity
   std::vector<Six> end;                 // at the end of the last run
+
+  // LAMMPS's arrays are contiguous
+  static const double (*rows_of(double **a))[3]
+  {
+    return reinterpret_cast<const double(*)[3]>(a[0]);
+  }
 
   static Six now(const Atom *atom, int i)
   {

@@ -77,6 +77,14 @@ class Bodies {
       action(space.data());
   }
 
+  template <class Action> void with_rows(Action action) const
+  {
+    if (flat)
+      action(plane.data());
+    else
+      action(space.data());
+  }
+
   // new rows are zero
   void resize(int n)
   {
@@ -120,13 +128,40 @@ class Bodies {
     });
   }
 
+  // the first n rows at once; x, v, omega, f, torque are [n][3]
+  void place_all(int n, const double (*x)[3])
+  {
+    with_rows([=](auto *row) {
+      for (int i = 0; i < n; i++) copy(&x[i][0], row[i].x);
+    });
+  }
+  void set_motion_all(int n, const double (*v)[3], const double (*omega)[3])
+  {
+    with_rows([=](auto *row) {
+      for (int i = 0; i < n; i++) {
+        copy(&v[i][0], row[i].v);
+        copy(&omega[i][3 - row->spin_dim], row[i].omega);
+      }
+    });
+  }
+  void add_loads_to_all(int n, double (*f)[3], double (*torque)[3]) const
+  {
+    with_rows([=](const auto *row) {
+      for (int i = 0; i < n; i++) {
+        add(row[i].f, &f[i][0]);
+        add(row[i].torque, &torque[i][3 - row->spin_dim]);
+      }
+    });
+  }
+
   void clear_loads(int first, int last)
   {
-    for (int i = first; i < last; i++)
-      with_row(i, [](auto &row) {
-        for (double &c : row.f) c = 0.0;
-        for (double &c : row.torque) c = 0.0;
-      });
+    with_rows([=](auto *row) {
+      for (int i = first; i < last; i++) {
+        for (double &c : row[i].f) c = 0.0;
+        for (double &c : row[i].torque) c = 0.0;
+      }
+    });
   }
   // adds to f[3] and torque[3] the load of a row, or to the row a load f[3], torque[3]
   void add_load_to(int i, double *f, double *torque) const

@@ -42,7 +42,7 @@ struct Candidates {
   template <class Row, class Action> void detect(const Row *rows, Action touches) const
   {
     for (int k = 0; k < size(); k++)
-      if (overlap(k, rows) && !closed[k]) touches(k);
+      if (!closed[k] && overlap(k, rows)) touches(k);
   }
   // the same for the pairs near each other
   template <class Row, class Action> void detect_near(const Row *rows, Action touches) const
