@@ -46,23 +46,30 @@ void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode
 {
   const double kappa = mode.frequency * dt;
   if (kappa <= apf::largest_stable_kappa || lmp->comm->me != 0) return;
-  lmp->error->warning(
-      FLERR,
-      "{}: timestep {:.4g} is too large for the {} mode of a contact, omega dt = {:.3g}; "
-      "above {} dense packings are unstable; {:.3g} gives {}",
-      who, dt, mode.name(), kappa, apf::largest_stable_kappa, apf::accurate_kappa / mode.frequency,
-      apf::accurate_kappa);
+  const double n = std::round(lmp->update->dt / dt), good = apf::accurate_kappa / mode.frequency;
+  const bool sub_steps = !lmp->modify->get_fix_by_style("^nve/sphere/mts").empty();
+  const std::string what = sub_steps ? fmt::format("collision step {:.4g}, timestep / {},", dt, n)
+                                     : fmt::format("timestep {:.4g}", dt);
+  const std::string cure = sub_steps
+      ? fmt::format("collision {} gives {}, collision auto chooses",
+                    std::ceil(lmp->update->dt / good), apf::accurate_kappa)
+      : fmt::format("{:.3g} gives {}; or use fix nve/sphere/mts", good, apf::accurate_kappa);
+  lmp->error->warning(FLERR,
+                      "{}: {} is too large for the {} mode of a contact, omega dt = {:.3g}; above "
+                      "{} dense packings are unstable; {}",
+                      who, what, mode.name(), kappa, apf::largest_stable_kappa, cure);
 }
 
 void check_scene(LAMMPS *lmp, const std::string &who, double diameter)
 {
   if (lmp->comm->me != 0) return;
   const double skin = lmp->neighbor->skin;
+  const bool looks_ahead = !lmp->modify->get_fix_by_style("^nve/sphere/mts").empty();
   if (diameter > 0.0 && skin > 5.0 * diameter)
     lmp->error->warning(FLERR,
                         "{}: the neighbor skin of {:.3g} is {:.3g} diameters of the largest "
                         "particle; neighbor {:.2g} bin would do",
-                        who, skin, skin / diameter, 0.3 * diameter);
+                        who, skin, skin / diameter, (looks_ahead ? 1.0 : 0.3) * diameter);
   for (const auto &fix : lmp->modify->get_fix_by_style("^nve$"))
     lmp->error->warning(FLERR,
                         "{}: fix {} has style nve, which does not turn particles; friction and "

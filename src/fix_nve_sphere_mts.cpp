@@ -24,6 +24,7 @@ static constexpr const char *command = "Fix nve/sphere/mts";
 // Distance looked ahead over that of the approach: a heavy particle may double a light one's speed.
 static constexpr double lookahead_safety = 2.0;
 static constexpr double big = 1.0e300;
+static constexpr int too_many = 1000000;
 
 /* ---------------------------------------------------------------------- */
 
@@ -48,9 +49,10 @@ FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
   auto missing = [&](const std::string &word) {
     utils::missing_cmd_args(FLERR, "fix nve/sphere/mts " + word, error);
   };
-  if (narg < 5) missing("collision");
+  if (narg < 4) missing("collision");
   if (strcmp(arg[3], "collision") != 0)
     error->all(FLERR, 3, "{} begins with keyword collision, got {}", command, arg[3]);
+  if (narg < 5) missing("collision");
   const std::string how = arg[4];
   int iarg = 5;
   if (how == "tolerance") {
@@ -61,7 +63,7 @@ FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
                  arg[iarg]);
     iarg++;
   } else if (how != "auto") {
-    fixed_steps = utils::inumeric(FLERR, arg[4], false, lmp);
+    fixed_steps = utils::is_integer(how) ? utils::inumeric(FLERR, arg[4], false, lmp) : 0;
     if (fixed_steps < 1)
       error->all(FLERR, 4,
                  "{} collision must be auto, tolerance T or a number of steps >= 1, got {}",
@@ -121,14 +123,17 @@ void FixNVESphereMTS::init()
   for (const auto &fix : modify->get_fix_list())
     if (fix->time_integrate && fix != this)
       refuse(fmt::format("fix {} {}", fix->id, fix->style),
-             "particles that another fix moves would stand still in its collision steps; "
-             "particles outside its group do not move at all");
+             fmt::format("its particles would stand still in collision steps; unfix {} or fix {}. "
+                         "Particles outside the group of fix {} do not move",
+                         fix->id, id, id));
 
   const auto histories = modify->get_fix_by_style("^contact/history");
   if (histories.size() != 1)
     error->all(FLERR, Error::NOLASTLINE, "{} needs one pair style granular/adhesive, got {}",
                command, histories.size());
   history = dynamic_cast<FixContactHistory *>(histories[0]);
+  if (force->pair_match("^hybrid/scaled", 0))
+    refuse("pair_style hybrid/scaled", "collision steps take contact forces unscaled");
   keepers.clear();
   fluids.clear();
   for (const auto &fix : modify->get_fix_list()) {
@@ -139,6 +144,13 @@ void FixNVESphereMTS::init()
   std::stable_partition(keepers.begin(), keepers.end(), [this](const FixContacts *keeper) {
     return keeper == history;
   });
+
+  for (const auto &fix : modify->get_fix_list())
+    if (utils::strmatch(fix->style, "^(set|ave)force") && comm->me == 0)
+      error->warning(FLERR,
+                     "{} {}: fix {} {} does not hold particles against their contacts; use fix "
+                     "freeze, or leave them out of the group of fix {}",
+                     command, id, fix->id, fix->style, id);
 
   const auto freezes = modify->get_fix_by_style("^freeze");
   freeze_group_bit = freezes.empty() ? 0 : freezes[0]->groupbit;
@@ -151,6 +163,7 @@ void FixNVESphereMTS::init()
 void FixNVESphereMTS::setup(int)
 {
   run_totals = Totals();
+  warned_of_skin = false;
   run_totals.late_before = late_contacts();
 }
 
@@ -262,16 +275,27 @@ void FixNVESphereMTS::demand_neighbours(const Extremes &now)
   ahead.extra = now.acceleration * dt;
   // walls are at rest
   ahead.limit = keepers.size() > 1 ? std::max(now.spread, now.speed) : now.spread;
-  const double distance = ahead.reach * (now.spread + ahead.extra);
-  if (distance > skin)
-    error->all(FLERR, Error::NOLASTLINE,
-               "{} looks ahead by {:.3g}, what particles may approach in {} timesteps of {:.3g}, "
-               "farther than the neighbor skin of {:.3g}: use neighbor {:.2g} bin or larger, or a "
-               "smaller timestep",
-               command, distance, lookahead_safety, dt, skin, 1.5 * distance);
+  const double fastest = now.spread + ahead.extra;
+  const double distance = ahead.reach * fastest;
+  if (lookahead && fastest * dt > skin)
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "{} {}: particles whose velocities differ by {:.3g} may approach by {:.3g} in a "
+        "timestep of {:.3g}, farther than the neighbor skin of {:.3g} lets contacts be seen: "
+        "use timestep {:.2g} or smaller, or neighbor {:.2g} bin or larger",
+        command, id, now.spread, fastest * dt, dt, skin, 0.4 * skin / fastest, 1.2 * distance);
+  if (distance > skin) {
+    ahead.reach = skin / fastest;
+    if (comm->me == 0 && !warned_of_skin)
+      error->warning(FLERR,
+                     "{} {}: looks ahead by {:.3g} timesteps instead of {}, for want of neighbor "
+                     "skin: use neighbor {:.2g} bin or larger, or a smaller timestep",
+                     command, id, ahead.reach / dt, lookahead_safety, 1.2 * distance);
+    warned_of_skin = true;
+  }
   const double displacement = now.displacement + growth * now.speed * dt;
   if (domain->box_change_size || domain->box_change_shape ||
-      2.0 * displacement + growth * distance > skin)
+      2.0 * displacement + growth * std::min(distance, skin) > skin)
     next_reneighbor = update->ntimestep;
 }
 
@@ -405,7 +429,17 @@ void FixNVESphereMTS::choose_steps()
   const double demand = std::sqrt(all.demand2);
   MPI_Allreduce(&stiffest.frequency2, &frequency_now, 1, MPI_DOUBLE, MPI_MAX, world);
   frequency_now = std::sqrt(frequency_now);
-  if (!fixed_steps) n_collision = std::max(1, static_cast<int>(std::ceil(demand * update->dt)));
+  if (!fixed_steps) {
+    const double n = std::ceil(demand * update->dt);
+    if (n > too_many)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} {}: a timestep of {:.3g} takes {:.3g} collision steps, more than {}: use a "
+                 "smaller timestep",
+                 command, id, update->dt, n, too_many);
+    n_collision = std::max(1, static_cast<int>(n));
+  }
+
+  kappa_now = frequency_now * collision_step();
 
   auto &run = run_totals;
   run.fewest = run.particle_steps ? std::min(run.fewest, n_collision) : n_collision;
@@ -578,7 +612,7 @@ void FixNVESphereMTS::post_run()
   utils::logmesg(
       lmp,
       "{} {}: {} particle steps of {:.4g}, {} collision steps, {} to {} in a particle "
-      "step\n  sub-stepped {:.1f} % of the particles; {} mode of contacts set the finest step; "
+      "step\n  sub-stepped {:.1f} % of the particles; finest step set by {} mode of contacts; "
       "contacts found late {}\n",
       command, id, run.particle_steps, update->dt, run.collision_steps, run.fewest, run.most,
       100.0 * all[0] / std::max<bigint>(all[1], 1), run.mode, late);
@@ -613,7 +647,7 @@ double FixNVESphereMTS::compute_vector(int n)
   }
   if (n == 3) return static_cast<double>(all_collision_steps);
   if (n == 4) return static_cast<double>(late_contacts());
-  return frequency_now * collision_step();
+  return kappa_now;
 }
 
 void *FixNVESphereMTS::extract(const char *name, int &dim)

@@ -102,7 +102,8 @@ class FixNVESphereMTS : public Fix {
   bigint all_collision_steps = 0, late_before_restart = 0;
   bigint active_now = 0;
   const char *limiting_mode = "none";
-  double frequency_now = 0.0;
+  double frequency_now = 0.0, kappa_now = 0.0;
+  bool warned_of_skin = false;
 
   Extremes find_extremes() const;
   void demand_neighbours(const Extremes &);

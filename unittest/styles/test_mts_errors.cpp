@@ -23,8 +23,9 @@ TEST(MtsErrors, words_of_the_command)
       {"steps 8", name, "begins with keyword collision, got steps"},
       {"collision 0", name, "auto, tolerance T or a number of steps >= 1, got 0"},
       {"collision -3", name, "auto, tolerance T or a number of steps >= 1, got -3"},
-      {"collision 2.5", "integer", "2.5"},
-      {"collision automatic", "integer", "automatic"},
+      {"auto", name, "begins with keyword collision, got auto"},
+      {"collision 2.5", name, "auto, tolerance T or a number of steps >= 1, got 2.5"},
+      {"collision automatic", name, "auto, tolerance T or a number of steps >= 1, got automatic"},
       {"collision auto safety", missing + " safety", argument},
       {"collision auto safety 0", name, "safety must be in (0, 0.8], got 0"},
       {"collision auto safety -0.1", name, "safety must be in (0, 0.8], got -0.1"},
@@ -96,9 +97,21 @@ TEST(MtsErrors, skin_that_is_too_thin_for_what_it_must_see)
   Simulation sim;
   build(sim, {{2.0, 4.0, 4.0}, {6.0, 4.0, 4.0}});
   set_motion(sim, 1, {100.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
-  // 2 steps x 8 dt x speed 100
-  expect_words(sim.error_of("neighbor 0.09 bin\n" + mts(8) + "run 1"),
-               {name, "looks ahead by 0.0977", "skin of 0.09", "neighbor 0.15 bin"});
+  // 8 dt x speed 100
+  expect_words(sim.error_of("neighbor 0.045 bin\n" + mts(8) + "run 1"),
+               {name, "differ by 100", "approach by 0.0488", "skin of 0.045",
+                "timestep 0.00018 or smaller", "neighbor 0.12 bin or larger"});
+}
+
+// Enough for what they can do, not for twice that: the run goes on, looking less far ahead.
+TEST(MtsErrors, skin_that_is_too_thin_for_the_safety_factor)
+{
+  Simulation sim;
+  build(sim, {{2.0, 4.0, 4.0}, {3.5, 4.0, 4.0}});
+  set_motion(sim, 1, {100.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  EXPECT_EQ(sim.error_of("neighbor 0.09 bin\n" + mts(8) + "run 20"), "");
+  EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+  EXPECT_GT(sim.value("vx[2]"), 20.0) << "struck";
   EXPECT_EQ(sim.error_of("neighbor 0.15 bin\nrun 1"), "");
 }
 
