@@ -75,14 +75,19 @@ void FixContactHistory::share_velocities()
    sub-steps: the pair style has the contacts
 ------------------------------------------------------------------------- */
 
+void FixContactHistory::find_fastest(apf::LookAhead &ahead)
+{
+  pair->find_fastest(ahead);
+}
+
 void FixContactHistory::find_approaching(apf::LookAhead &ahead)
 {
   pair->find_approaching(ahead);
 }
 
-void FixContactHistory::find_near(apf::LookAhead &ahead)
+bool FixContactHistory::find_near(apf::LookAhead &ahead)
 {
-  pair->find_near(ahead);
+  return pair->find_near(ahead);
 }
 
 void FixContactHistory::find_stiffest(apf::Stiffest &stiffest)

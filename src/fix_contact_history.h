@@ -30,8 +30,9 @@ class FixContactHistory : public FixContacts {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
 
+  void find_fastest(apf::LookAhead &) override;
   void find_approaching(apf::LookAhead &) override;
-  void find_near(apf::LookAhead &) override;
+  bool find_near(apf::LookAhead &) override;
   void find_stiffest(apf::Stiffest &) override;
   void sub_step(const apf::ContactTimes &) override;
   double contacts_here() const override;

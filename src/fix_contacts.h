@@ -44,10 +44,12 @@ class FixContacts : public Fix {
   void count_into(double *counts) { add_counts(counts); }
 
   // ---- sub-steps of a particle step, for fix nve/sphere/mts
+  // the largest speed that contacts may bring about
+  virtual void find_fastest(apf::LookAhead &) = 0;
   // bodies that touch or approach become active; the pairs that this brings about are remembered
   virtual void find_approaching(apf::LookAhead &) = 0;
-  // the same for bodies that an active one may strike, or that may be struck by it
-  virtual void find_near(apf::LookAhead &) = 0;
+  // the same for bodies that an active one may strike; returns whether there were such
+  virtual bool find_near(apf::LookAhead &) = 0;
   virtual void find_stiffest(apf::Stiffest &) = 0;    // of those that touch or may touch
   // forces of all contacts onto the rows of the particles, which stand half a sub-step before the
   // positions; contacts are made and ended

@@ -162,6 +162,11 @@ void FixNVESphereMTS::init()
 
 void FixNVESphereMTS::setup(int)
 {
+  gather_loads();
+  slow_largest = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    slow_largest =
+        std::max(slow_largest, MathExtra::len3(slow_of(i, &values[6 * i], &values[6 * i + 3]).a));
   run_totals = Totals();
   warned_of_skin = false;
   run_totals.late_before = late_contacts();
@@ -218,25 +223,27 @@ void FixNVESphereMTS::initial_integrate(int /*vflag*/)
 // Every particle gets the kick of half the step with which it moved last.
 void FixNVESphereMTS::final_integrate()
 {
+  gather_loads();
   const double half = 0.5 * collision_step();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (activity[i] == apf::FREE)
-      kick_free(i);
+      kick_free(i, &values[6 * i], half);
     else
       kick_atom(i, half);
   }
-  if (n_collision > 1) end_slow_kicks();
+  end_slow_kicks();
 }
 
 /* ---------------------------------------------------------------------- */
 
 FixNVESphereMTS::Extremes FixNVESphereMTS::find_extremes() const
 {
-  double most[9];
-  std::fill(most, most + 9, -big);
+  double most[11];
+  std::fill(most, most + 11, -big);
   double &speed2 = most[6], &acceleration2 = most[7], &displacement2 = most[8];
-  speed2 = acceleration2 = displacement2 = 0.0;
+  speed2 = displacement2 = 0.0;
+  acceleration2 = slow_largest * slow_largest;
   auto &bodies = history->bodies();
   for (int i = 0; i < atom->nlocal; i++) {
     const double *v = atom->v[i], *x = atom->x[i], *built = &x_built[3 * i];
@@ -244,6 +251,8 @@ FixNVESphereMTS::Extremes FixNVESphereMTS::find_extremes() const
       most[c] = std::max(most[c], v[c]);
       most[3 + c] = std::max(most[3 + c], -v[c]);
     }
+    most[9] = std::max(most[9], atom->rmass[i]);
+    most[10] = std::max(most[10], -atom->rmass[i]);
     speed2 = std::max(speed2, MathExtra::lensq3(v));
     const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
     displacement2 = std::max(displacement2, MathExtra::lensq3(moved));
@@ -253,12 +262,14 @@ FixNVESphereMTS::Extremes FixNVESphereMTS::find_extremes() const
       acceleration2 = std::max(acceleration2,
                                MathExtra::lensq3(atom->f[i]) / (atom->rmass[i] * atom->rmass[i]));
   }
-  double all[9];
-  MPI_Allreduce(most, all, 9, MPI_DOUBLE, MPI_MAX, world);
+  double all[11];
+  MPI_Allreduce(most, all, 11, MPI_DOUBLE, MPI_MAX, world);
   double spread2 = 0.0;
   for (int c = 0; c < 3; c++)
     spread2 += all[c] > -big ? (all[c] + all[3 + c]) * (all[c] + all[3 + c]) : 0.0;
-  return {std::sqrt(spread2), std::sqrt(all[6]), std::sqrt(all[7]), std::sqrt(all[8])};
+  const double heaviest = all[9], lightest = -all[10];
+  const double struck = heaviest > 0.0 ? 2.0 * heaviest / (heaviest + lightest) : 1.0;
+  return {std::sqrt(spread2), std::sqrt(all[6]), std::sqrt(all[7]), std::sqrt(all[8]), struck};
 }
 
 /* ----------------------------------------------------------------------
@@ -271,6 +282,7 @@ void FixNVESphereMTS::demand_neighbours(const Extremes &now)
   constexpr double growth = 1.2;    // of speeds within one step
   const double dt = update->dt, skin = neighbor->skin;
   ahead.reach = lookahead ? lookahead_safety * dt : 0.0;
+  ahead.struck = lookahead ? (1.0 + now.struck) * dt : 0.0;
   ahead.margin = lookahead ? history->longest_neck() : 0.0;
   ahead.extra = now.acceleration * dt;
   // walls are at rest
@@ -286,6 +298,7 @@ void FixNVESphereMTS::demand_neighbours(const Extremes &now)
         command, id, now.spread, fastest * dt, dt, skin, 0.4 * skin / fastest, 1.2 * distance);
   if (distance > skin) {
     ahead.reach = skin / fastest;
+    ahead.struck = std::min(ahead.struck, ahead.reach);
     if (comm->me == 0 && !warned_of_skin)
       error->warning(FLERR,
                      "{} {}: looks ahead by {:.3g} timesteps instead of {}, for want of neighbor "
@@ -306,10 +319,20 @@ void FixNVESphereMTS::demand_neighbours(const Extremes &now)
 void FixNVESphereMTS::look_ahead()
 {
   ahead.begin(atom->nlocal + atom->nghost);
+  ahead.acceleration = surface_accelerations();
+  for (auto *keeper : keepers) keeper->find_fastest(ahead);
+  MPI_Allreduce(MPI_IN_PLACE, &ahead.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
+  ahead.limit = std::max(ahead.limit, ahead.fastest);
   for (auto *keeper : keepers) keeper->find_approaching(ahead);
   share_activity();
   MPI_Allreduce(MPI_IN_PLACE, &ahead.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
-  for (auto *keeper : keepers) keeper->find_near(ahead);
+  // what may be struck may strike others, also on other ranks
+  for (int more = lookahead; more;) {
+    more = 0;
+    for (auto *keeper : keepers) more |= keeper->find_near(ahead);
+    MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPI_INT, MPI_MAX, world);
+    if (more) share_activity();
+  }
 
   if (!owners_known) know_owners();
   std::vector<char> wanted(atom->nlocal, 0);
@@ -388,7 +411,10 @@ void FixNVESphereMTS::unpack_reverse_comm(int n, int *list, double *buf)
     return;
   }
   for (int k = 0; k < n; k++)
-    if (buf[k] == apf::ACTIVE) ahead.activity[list[k]] = apf::ACTIVE;
+    if (buf[k] == apf::ACTIVE)
+      ahead.activity[list[k]] = apf::ACTIVE;
+    else if (buf[k] == apf::NEAR_ACTIVE && ahead.activity[list[k]] == apf::FREE)
+      ahead.activity[list[k]] = apf::NEAR_ACTIVE;
 }
 
 /* ----------------------------------------------------------------------
@@ -417,7 +443,7 @@ void FixNVESphereMTS::choose_steps()
   apf::Stiffest stiffest;
   stiffest.rule = rule;
   stiffest.step = update->dt;
-  if (rule.tolerance > 0.0) stiffest.acceleration = surface_accelerations();
+  stiffest.acceleration = ahead.acceleration;
   stiffest.v45 = std::pow(ahead.fastest, 0.8);
   for (auto *keeper : keepers) keeper->find_stiffest(stiffest);
   struct {
@@ -494,26 +520,39 @@ void FixNVESphereMTS::kick_atom(int i, double time)
 
 void FixNVESphereMTS::drift_free()
 {
-  const double dt = update->dt;
+  const double dt = update->dt, no_load[6] = {};
   for (int i = 0; i < atom->nlocal; i++) {
     if (ahead.activity[i] != apf::FREE || !(atom->mask[i] & groupbit)) continue;
     if (activity[i] == apf::FREE)
-      kick_free(i);
+      kick_free(i, no_load, 0.0);
     else
       kick_atom(i, 0.5 * dt);    // f has the resistance of a collision step
     for (int c = 0; c < 3; c++) atom->x[i][c] += dt * atom->v[i][c];
   }
 }
 
-// Half a step of velocity Verlet; flow/force's resistance is meant for it.
-void FixNVESphereMTS::kick_free(int i)
+// Half a step of velocity Verlet; flow/force's resistance is meant for it. A contact that nobody
+// foresaw gives both its bodies the kick of half a collision step.
+void FixNVESphereMTS::kick_free(int i, const double *load, double load_time)
 {
-  const double r = atom->radius[i], m = atom->rmass[i];
-  const double linear = 0.5 * update->dt / m, angular = 2.5 * linear / (r * r);
+  const double r = atom->radius[i], m = atom->rmass[i], time = 0.5 * update->dt;
+  const double angular = 2.5 / (m * r * r);
   for (int c = 0; c < 3; c++) {
-    atom->v[i][c] += linear * atom->f[i][c];
-    atom->omega[i][c] += angular * atom->torque[i][c];
+    const double f = atom->f[i][c], torque = atom->torque[i][c];
+    atom->v[i][c] += (time * (f - load[c]) + load_time * load[c]) / m;
+    atom->omega[i][c] += angular * (time * (torque - load[3 + c]) + load_time * load[3 + c]);
   }
+}
+
+// loads of contacts on local atoms, those of other ranks included
+void FixNVESphereMTS::gather_loads()
+{
+  const auto &bodies = history->bodies();
+  values.assign(6 * (atom->nlocal + atom->nghost), 0.0);
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
+    bodies.add_load_to(i, &values[6 * i], &values[6 * i + 3]);
+  message = Message::LOADS;
+  if (force->newton_pair) comm->reverse_comm(this, 6);
 }
 
 /* ----------------------------------------------------------------------
@@ -524,13 +563,7 @@ void FixNVESphereMTS::kick_free(int i)
 
 void FixNVESphereMTS::end_slow_kicks()
 {
-  const auto &bodies = history->bodies();
-  values.assign(6 * (atom->nlocal + atom->nghost), 0.0);
-  for (int i = 0; i < atom->nlocal + atom->nghost; i++)
-    bodies.add_load_to(i, &values[6 * i], &values[6 * i + 3]);
-  message = Message::LOADS;
-  if (force->newton_pair) comm->reverse_comm(this, 6);
-
+  slow_largest = 0.0;
   const double dt = update->dt, half = 0.5 * collision_step();
   auto time_left = [&](double rate) {    // the last kick had the new forces
     return std::max(0.0, dt * apf::ramp_decay(dt * rate) - half * apf::mean_decay(half * rate));
@@ -538,6 +571,7 @@ void FixNVESphereMTS::end_slow_kicks()
   for (int i = 0; i < atom->nlocal; i++) {
     if (activity[i] == apf::FREE || !(atom->mask[i] & groupbit)) continue;
     const auto now = slow_of(i, &values[6 * i], &values[6 * i + 3]);
+    slow_largest = std::max(slow_largest, now.inv_mass > 0.0 ? MathExtra::len3(now.a) : 0.0);
     const double time = time_left(now.rate), spin_time = time_left(now.spin_rate);
     for (int c = 0; c < 3; c++) {
       atom->v[i][c] += time * (now.a[c] - slow_before[i][c]);

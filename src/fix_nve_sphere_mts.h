@@ -91,6 +91,7 @@ class FixNVESphereMTS : public Fix {
     double speed;           //                                                       [velocity]
     double acceleration;    // of particles that touch nothing                  [velocity/time]
     double displacement;    // since the neighbour list was built                      [length]
+    double struck;          // speed of a light body struck by a heavy one, over the latter's  [-]
   };
 
   struct Totals {    // of a run, for the summary
@@ -104,6 +105,7 @@ class FixNVESphereMTS : public Fix {
   const char *limiting_mode = "none";
   double frequency_now = 0.0, kappa_now = 0.0;
   bool warned_of_skin = false;
+  double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 
   Extremes find_extremes() const;
   void demand_neighbours(const Extremes &);
@@ -114,7 +116,8 @@ class FixNVESphereMTS : public Fix {
   void choose_steps();
   apf::Slow slow_of(int i, const double *contact_force, const double *contact_torque) const;
   void kick_atom(int i, double time);
-  void kick_free(int i);
+  void kick_free(int i, const double *load, double load_time);
+  void gather_loads();
   void end_slow_kicks();
   template <class Row> void sub_step_active();
   void drift_free();

@@ -358,12 +358,23 @@ void FixWallLevelset::tally(int vflag)
    sub-steps, see FixContacts
 ------------------------------------------------------------------------- */
 
+void FixWallLevelset::find_fastest(apf::LookAhead &ahead)
+{
+  if (contacts.size() == 0) return;
+  gather();    // contacts may have ended since the last forces
+  rows.with_rows([&](const auto *r) {
+    ahead.fastest = std::max(ahead.fastest, contacts.fastest(r, update->dt, [&](int k) {
+      return ahead.acceleration[contacts.source[k]];
+    }));
+  });
+}
+
 void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
 {
   near = parted;
   for (const auto &[i, s] : parted) ahead.come_near(i);
   perhaps.clear();
-  const double farthest = ahead.distance(ahead.limit);
+  const double farthest = ahead.farthest();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     for (int s = 0; s < static_cast<int>(surfaces.size()); s++) {
@@ -392,11 +403,18 @@ apf::Approach FixWallLevelset::approach_of(int i, int surface, double distance)
   return {distance - atom->radius[i], closing_speed, MathExtra::len3(v)};
 }
 
-void FixWallLevelset::find_near(apf::LookAhead &ahead)
+// A wall is struck, but strikes nothing in turn.
+bool FixWallLevelset::find_near(apf::LookAhead &ahead)
 {
-  for (const auto &[i, s, gap] : perhaps)
-    if (ahead.activity[i] == apf::ACTIVE && gap <= ahead.distance(ahead.fastest))
-      near.push_back({i, s});
+  size_t left = 0;
+  for (const auto &candidate : perhaps) {
+    if (ahead.activity[candidate.i] == apf::FREE || candidate.gap > ahead.distance_if_struck())
+      perhaps[left++] = candidate;
+    else
+      near.push_back({candidate.i, candidate.surface});
+  }
+  perhaps.resize(left);
+  return false;
 }
 
 void FixWallLevelset::sub_step(const apf::ContactTimes &times)

@@ -35,8 +35,9 @@ class FixWallLevelset : public FixContacts {
   int image(int *&, double **&) override;
   double memory_usage() override;
 
+  void find_fastest(apf::LookAhead &) override;
   void find_approaching(apf::LookAhead &) override;
-  void find_near(apf::LookAhead &) override;
+  bool find_near(apf::LookAhead &) override;
   void sub_step(const apf::ContactTimes &) override;
   double contacts_here() const override { return contacts.size(); }
   void find_stiffest(apf::Stiffest &) override;

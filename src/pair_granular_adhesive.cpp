@@ -126,6 +126,15 @@ void PairGranularAdhesive::detect(bool all, double step)
    sub-steps of a particle step
 ------------------------------------------------------------------------- */
 
+void PairGranularAdhesive::find_fastest(apf::LookAhead &ahead)
+{
+  store->bodies().with_rows([&](const auto *rows) {
+    ahead.fastest = std::max(ahead.fastest, contacts.fastest(rows, update->dt, [&](int k) {
+      return ahead.acceleration[contacts.i[k]] + ahead.acceleration[contacts.j[k]];
+    }));
+  });
+}
+
 void PairGranularAdhesive::find_approaching(apf::LookAhead &ahead)
 {
   store->bodies().with_rows([&](const auto *rows) {

@@ -47,8 +47,9 @@ class PairGranularAdhesive : public Pair {
   apf::StiffestMode stiffest_possible() const;    // of any two particles
 
   // sub-steps of a particle step, see FixContacts
+  void find_fastest(apf::LookAhead &);
   void find_approaching(apf::LookAhead &);
-  void find_near(apf::LookAhead &ahead) { candidates.find_near(ahead); }
+  bool find_near(apf::LookAhead &ahead) { return candidates.find_near(ahead); }
   void find_stiffest(apf::Stiffest &);
   void sub_step(const apf::ContactTimes &);
 

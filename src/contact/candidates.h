@@ -62,7 +62,7 @@ struct Candidates {
       ahead.come_near(i[k]);
       ahead.come_near(j[k]);
     }
-    const double farthest = ahead.distance(ahead.limit);
+    const double farthest = ahead.farthest();
     for (int k = 0; k < size(); k++) {
       const Row &a = rows[i[k]], &b = rows[j[k]];
       const double most = touch[k] + farthest;
@@ -78,17 +78,30 @@ struct Candidates {
     }
   }
 
-  // Second part, when the activities of all bodies and the fastest of them are known.
-  void find_near(LookAhead &ahead)
+  // Second part, when the activities of all bodies and the fastest of them are known; returns
+  // whether bodies have become active by it, and others may therefore follow.
+  bool find_near(LookAhead &ahead)
   {
-    const double far = ahead.distance(ahead.fastest);
-    for (const auto &[k, gap] : perhaps) {
-      if (gap > far) continue;
-      if (ahead.activity[i[k]] != ACTIVE && ahead.activity[j[k]] != ACTIVE) continue;
-      near.push_back(k);
-      ahead.come_near(i[k]);
-      ahead.come_near(j[k]);
+    const double far = ahead.distance_if_struck();
+    bool any = false;
+    for (bool more = true; more;) {
+      more = false;
+      size_t left = 0;
+      for (const auto &pair : perhaps) {
+        const int a = i[pair.k], b = j[pair.k];
+        if (pair.gap > far || (ahead.activity[a] == FREE && ahead.activity[b] == FREE)) {
+          perhaps[left++] = pair;
+          continue;
+        }
+        more |= ahead.activity[a] == FREE || ahead.activity[b] == FREE;
+        near.push_back(pair.k);
+        ahead.come_near(a);
+        ahead.come_near(b);
+      }
+      perhaps.resize(left);
+      any |= more;
     }
+    return any;
   }
 
   // [bytes]

@@ -208,6 +208,23 @@ class ContactList {
     return normal.energy(s) - least + 0.5 * c.kt * s * s * sliding2;
   }
 
+  // the fastest that the surfaces of contacts may come to move within a time step
+  template <class Row, class Acceleration>
+  double fastest(const Row *rows, double step, Acceleration acceleration) const
+  {
+    double most = 0.0;
+    for (int k = 0; k < size(); k++) {
+      const auto &c = kinds.constants(kind[k]);
+      const double v2 =
+          contact_speed2(rows[i[k]], rows[j[k]], c.radius_i, c.radius_sum - c.radius_i);
+      const double v = std::sqrt(v2) + acceleration(k) * step;
+      if (v <= most) continue;
+      const double of_springs = std::sqrt(v2 + 2.0 * energy_above_rest(k) / mode(k).mass);
+      most = std::max(most, std::min(v, of_springs));
+    }
+    return most;
+  }
+
   // which contact demands the finest step, with the bodies as they move now
   // acceleration(k): largest that the surfaces in contact k have relative to each other
   template <class Row, class Acceleration>

@@ -5,7 +5,9 @@
 //
 // decides for a pair by itself. A body that touches or approaches another ("active") may be struck
 // in the course of the step and then move as fast as any of these; for its pairs the largest
-// relative speed of all of them stands in for the closing speed.
+// relative speed of all of them stands in for the closing speed, and what it may strike in turn is
+// looked at in the same way, to the end of the chain. A light body that a heavy one strikes leaves
+// with up to twice its speed.
 
 #ifndef APF_LOOK_AHEAD_H
 #define APF_LOOK_AHEAD_H
@@ -20,12 +22,14 @@ enum Activity : char { FREE = 0, ACTIVE = 1, NEAR_ACTIVE = 2 };
 
 struct LookAhead {
   double reach = 0.0;      // safety factor x particle step                            [time]
+  double struck = 0.0;     // the same for a body that another has struck               [time]
   double extra = 0.0;      // speed that forces can add to an approach               [velocity]
   double margin = 0.0;     // added to every distance                                  [length]
   double fastest = 0.0;    // largest relative speed of bodies that touch or approach [velocity]
   double limit = 0.0;      // no relative speed of two bodies is larger                [velocity]
-  std::vector<char> activity;    // Activity of each body
-  std::vector<char> used;        // bodies that a pair here has made active
+  std::vector<char> activity;          // Activity of each body
+  std::vector<double> acceleration;    // of its surface, by all forces    [velocity/time]
+  std::vector<char> used;              // bodies that a pair here has made active
 
   void begin(int bodies)
   {
@@ -35,6 +39,9 @@ struct LookAhead {
   }
 
   double distance(double speed) const { return reach * (std::max(speed, 0.0) + extra) + margin; }
+
+  double distance_if_struck() const { return struck * (fastest + extra) + margin; }
+  double farthest() const { return std::max(reach, struck) * (limit + extra) + margin; }
 
   void meet(int i, double relative_speed)
   {

@@ -24,7 +24,8 @@ SpaceRow body(double x, double v, double y = 0.0)
 LookAhead ahead_of(int bodies, double limit = 10.0)
 {
   LookAhead ahead;
-  ahead.reach = 2.0;    // twice a step of 1
+  ahead.reach = 2.0;
+  ahead.struck = 2.0;    // twice a step of 1
   ahead.limit = limit;
   ahead.begin(bodies);
   return ahead;
