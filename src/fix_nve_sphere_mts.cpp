@@ -21,7 +21,7 @@ using namespace FixConst;
 
 static constexpr const char *command = "Fix nve/sphere/mts";
 
-// Distance looked ahead over that of the approach: a heavy particle may double a light one's speed.
+// Distance looked ahead over that of the approach; LookAhead::struck has the bound for impacts.
 static constexpr double lookahead_safety = 2.0;
 static constexpr double big = 1.0e300;
 static constexpr int too_many = 1000000;
@@ -451,10 +451,9 @@ void FixNVESphereMTS::choose_steps()
     int mode;
   } mine{stiffest.demand2, stiffest.mode}, all;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
-  limiting_mode = apf::mode_names[all.mode];
   const double demand = std::sqrt(all.demand2);
-  MPI_Allreduce(&stiffest.frequency2, &frequency_now, 1, MPI_DOUBLE, MPI_MAX, world);
-  frequency_now = std::sqrt(frequency_now);
+  double frequency2;
+  MPI_Allreduce(&stiffest.frequency2, &frequency2, 1, MPI_DOUBLE, MPI_MAX, world);
   if (!fixed_steps) {
     const double n = std::ceil(demand * update->dt);
     if (n > too_many)
@@ -465,7 +464,7 @@ void FixNVESphereMTS::choose_steps()
     n_collision = std::max(1, static_cast<int>(n));
   }
 
-  kappa_now = frequency_now * collision_step();
+  kappa_now = std::sqrt(frequency2) * collision_step();
 
   auto &run = run_totals;
   run.fewest = run.particle_steps ? std::min(run.fewest, n_collision) : n_collision;
@@ -479,7 +478,7 @@ void FixNVESphereMTS::choose_steps()
   run.atoms += atom->nlocal;
   if (demand >= run.demand) {
     run.demand = demand;
-    run.mode = limiting_mode;
+    run.mode = apf::mode_names[all.mode];
   }
 }
 

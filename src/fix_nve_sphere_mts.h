@@ -102,8 +102,7 @@ class FixNVESphereMTS : public Fix {
   } run_totals;
   bigint all_collision_steps = 0, late_before_restart = 0;
   bigint active_now = 0;
-  const char *limiting_mode = "none";
-  double frequency_now = 0.0, kappa_now = 0.0;
+  double kappa_now = 0.0;
   bool warned_of_skin = false;
   double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 

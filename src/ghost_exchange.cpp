@@ -73,7 +73,7 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
                            const apf::Bodies &bodies, std::vector<char> &wanted)
 {
   chosen.clear();
-  for (auto *p : {&self}) p->images.clear(), p->sent.clear();
+  self.images.clear(), self.sent.clear();
   for (auto &p : partners) p.images.clear(), p.sent.clear();
   std::vector<std::vector<int>> asked(partners.size());
   const int nghost = static_cast<int>(owner_rank.size());
@@ -126,15 +126,8 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
     p.out.resize(6 * p.sent.size());
     for (size_t k = 0; k < p.sent.size(); k++) motion(p.sent[k], &p.out[6 * k]);
   }
-  requests.clear();
-  for (auto &p : partners) {
-    requests.resize(requests.size() + 2);
-    MPI_Irecv(p.in.data(), static_cast<int>(p.in.size()), MPI_DOUBLE, p.rank, tag_rows, world,
-              &requests.end()[-2]);
-    MPI_Isend(p.out.data(), static_cast<int>(p.out.size()), MPI_DOUBLE, p.rank, tag_rows, world,
-              &requests.end()[-1]);
-  }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  start(tag_rows);
+  finish();
   for (auto &p : partners)
     for (size_t k = 0; k < p.images.size(); k++) compare(p.images[k], &p.in[6 * k]);
   for (size_t k = 0; k < self.images.size(); k++) {
@@ -146,26 +139,40 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
 
 /* ---------------------------------------------------------------------- */
 
+void GhostExchange::start(int tag)
+{
+  requests.clear();
+  for (auto &p : partners) {
+    if (!p.in.empty()) {
+      requests.emplace_back();
+      MPI_Irecv(p.in.data(), static_cast<int>(p.in.size()), MPI_DOUBLE, p.rank, tag, world,
+                &requests.back());
+    }
+    if (!p.out.empty()) {
+      requests.emplace_back();
+      MPI_Isend(p.out.data(), static_cast<int>(p.out.size()), MPI_DOUBLE, p.rank, tag, world,
+                &requests.back());
+    }
+  }
+}
+
+void GhostExchange::finish()
+{
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class Row> void GhostExchange::forward(Row *rows, double left)
 {
   constexpr int size = motion_size<Row>;
-  requests.clear();
   for (auto &p : partners) {
     p.out.resize(size * p.sent.size());
     p.in.resize(size * p.images.size());
     double *buf = p.out.data();
     for (const int i : p.sent) buf = pack_motion(rows[i], buf);
-    for (auto *to : {&p.in, &p.out}) {
-      if (to->empty()) continue;
-      requests.emplace_back();
-      if (to == &p.in)
-        MPI_Irecv(p.in.data(), static_cast<int>(p.in.size()), MPI_DOUBLE, p.rank, tag_forward,
-                  world, &requests.back());
-      else
-        MPI_Isend(p.out.data(), static_cast<int>(p.out.size()), MPI_DOUBLE, p.rank, tag_forward,
-                  world, &requests.back());
-    }
   }
+  start(tag_forward);
   auto place = [rows, left](const Image &image, const double *buf) {
     Row &row = rows[image.ghost];
     for (int c = 0; c < Row::dim; c++) row.x[c] = *buf++ + image.shift[c] - left * image.behind[c];
@@ -177,7 +184,7 @@ template <class Row> void GhostExchange::forward(Row *rows, double left)
     pack_motion(rows[self.sent[k]], buf);
     place(self.images[k], buf);
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  finish();
   for (auto &p : partners)
     for (size_t k = 0; k < p.images.size(); k++) place(p.images[k], &p.in[size * k]);
 }
@@ -196,28 +203,18 @@ template <class Row> void GhostExchange::reverse(Row *rows)
     for (double &c : rows[i].f) c += *buf++;
     for (double &c : rows[i].torque) c += *buf++;
   };
-  requests.clear();
   for (auto &p : partners) {
     p.out.resize(size * p.images.size());
     p.in.resize(size * p.sent.size());
     for (size_t k = 0; k < p.images.size(); k++) take(p.images[k].ghost, &p.out[size * k]);
-    if (!p.in.empty()) {
-      requests.emplace_back();
-      MPI_Irecv(p.in.data(), static_cast<int>(p.in.size()), MPI_DOUBLE, p.rank, tag_reverse, world,
-                &requests.back());
-    }
-    if (!p.out.empty()) {
-      requests.emplace_back();
-      MPI_Isend(p.out.data(), static_cast<int>(p.out.size()), MPI_DOUBLE, p.rank, tag_reverse,
-                world, &requests.back());
-    }
   }
+  start(tag_reverse);
   for (size_t k = 0; k < self.images.size(); k++) {
     double buf[size];
     take(self.images[k].ghost, buf);
     give(self.sent[k], buf);
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  finish();
   for (auto &p : partners)
     for (size_t k = 0; k < p.sent.size(); k++) give(p.sent[k], &p.in[size * k]);
 }

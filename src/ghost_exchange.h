@@ -56,6 +56,10 @@ class GhostExchange {
   std::vector<int> chosen;
   std::vector<MPI_Request> requests;
 
+  // every partner's `out` is sent and `in` filled; none of them may be touched until finish()
+  void start(int tag);
+  void finish();
+
   Partner &partner(int rank) { return rank == me ? self : partners[partner_of_rank[rank]]; }
 };
 
