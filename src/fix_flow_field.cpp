@@ -131,8 +131,8 @@ int FixFlowField::parse_shear(char **arg)
 {
   apf::ShearFlow shear{};
   shear.flow = axis(arg[4], 4);
-  shear.gradient = axis(arg[5], 5);
-  if (shear.gradient == shear.flow)
+  shear.across = axis(arg[5], 5);
+  if (shear.across == shear.flow)
     error->all(FLERR, 5, "Fix flow/field shear gradient axis must differ from flow axis {}",
                arg[4]);
   speed[0] = parse_speed(arg[6]);
@@ -236,22 +236,6 @@ void FixFlowField::set_speed()
     channel->umax = speed[0].value;
   else if (auto *pipe = std::get_if<apf::PipeFlow>(&flow))
     pipe->umax = speed[0].value;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixFlowField::sample(int n, const double *const *x, const int *mask, int group,
-                          apf::Vec3 *velocity, apf::Vec3 *vorticity) const
-{
-  std::visit(
-      [=](const auto &kind) {
-        for (int i = 0; i < n; i++)
-          if (mask[i] & group) velocity[i] = kind.velocity(x[i]);
-        if (!vorticity) return;
-        for (int i = 0; i < n; i++)
-          if (mask[i] & group) vorticity[i] = kind.vorticity(x[i]);
-      },
-      flow);
 }
 
 /* ----------------------------------------------------------------------

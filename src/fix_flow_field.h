@@ -31,13 +31,11 @@ class FixFlowField : public Fix {
   double density;      // of the fluid                                 [mass/length^3]
   double viscosity;    // dynamic                                      [pressure time]
 
-  // Fluid velocity, and vorticity unless it is null, at x[i] for all i < n with mask[i] & group;
-  // other elements are left alone. Values are those of the current step.
-  void sample(int n, const double *const *x, const int *mask, int group, apf::Vec3 *velocity,
-              apf::Vec3 *vorticity) const;
-
-  // the same field for a caller that has its own loop: std::visit(loop, field())
-  const apf::FlowField &field() const { return flow; }
+  // Fluid at a block of points, as it is at the current step.
+  void sample(const apf::PointBlock &points, apf::Detail detail, apf::FluidBlock &out) const
+  {
+    apf::sample(flow, points, detail, out);
+  }
 
  private:
   // a number, or an equal-style variable that is evaluated each step

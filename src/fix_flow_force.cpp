@@ -281,8 +281,21 @@ void FixFlowForce::gather()
   if (velocity.size() < nlocal) velocity.resize(nmax);
   if (torque && vorticity.size() < nlocal) vorticity.resize(nmax);
   if (sub_stepper && relaxations.size() < nlocal) relaxations.resize(nmax);
-  field->sample(atom->nlocal, atom->x, atom->mask, groupbit, velocity.data(),
-                torque ? vorticity.data() : nullptr);
+  const auto detail = torque ? apf::Detail::VORTICITY : apf::Detail::VELOCITY;
+  auto at = [](const apf::Lanes(&a)[3], int l) {
+    return apf::Vec3{a[0][l], a[1][l], a[2][l]};
+  };
+  apf::PointBlock points;
+  apf::FluidBlock fluid;
+  for (int first = 0; first < atom->nlocal; first += apf::block_width) {
+    points.n = std::min(apf::block_width, atom->nlocal - first);
+    for (int l = 0; l < points.n; l++) points.set(l, atom->x[first + l]);
+    field->sample(points, detail, fluid);
+    for (int l = 0; l < points.n; l++) {
+      velocity[first + l] = at(fluid.velocity, l);
+      if (torque) vorticity[first + l] = at(fluid.vorticity, l);
+    }
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -22,11 +22,12 @@ struct ChannelFlow {
     const double s = (x[wall] - lo) / (hi - lo);
     return inside(s) * (4.0 * umax * s * (1.0 - s)) * unit_vector(flow);
   }
-  Vec3 vorticity(const double *x) const
+  Gradient gradient(const double *x) const
   {
     const double s = (x[wall] - lo) / (hi - lo);
-    const double slope = 4.0 * umax * (1.0 - 2.0 * s) / (hi - lo);    // du/dx_w
-    return inside(s) * slope * cross(unit_vector(wall), unit_vector(flow));
+    Gradient g;
+    g.d[flow][wall] = inside(s) * 4.0 * umax * (1.0 - 2.0 * s) / (hi - lo);
+    return g;
   }
 
  private:

@@ -1,6 +1,6 @@
-// The fluid's velocity and vorticity as functions of position, one of several kinds. A kind is a
-// struct with velocity(x) and vorticity(x), x the three coordinates; loops over particles choose
-// the kind once (std::visit) and call it without any further branch. A new kind is added here.
+// The fluid as a function of position, one of several kinds. A kind is a struct with velocity(x) and
+// gradient(x), x the three coordinates; the kind is chosen once for a block of particles. A new kind
+// is added here.
 
 #ifndef APF_FLOW_FIELD_H
 #define APF_FLOW_FIELD_H
@@ -15,6 +15,15 @@
 namespace apf {
 
 using FlowField = std::variant<UniformFlow, ShearFlow, ChannelFlow, PipeFlow>;
+
+inline void sample(const FlowField &flow, const PointBlock &points, Detail detail, FluidBlock &out)
+{
+  std::visit(
+      [&](const auto &kind) {
+        sample_pointwise(kind, points, detail, out);
+      },
+      flow);
+}
 
 }    // namespace apf
 

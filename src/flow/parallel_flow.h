@@ -1,9 +1,9 @@
-// Flows along one coordinate axis e_f: a velocity w(x) e_f has the vorticity grad w x e_f.
+// Flows along one coordinate axis.
 
 #ifndef APF_PARALLEL_FLOW_H
 #define APF_PARALLEL_FLOW_H
 
-#include "../contact/vector.h"
+#include "fluid_block.h"
 
 namespace apf {
 

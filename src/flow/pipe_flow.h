@@ -24,13 +24,15 @@ struct PipeFlow {
     const double rest = 1.0 - (a * a + b * b) / (radius * radius);
     return (rest > 0.0 ? umax * rest : 0.0) * unit_vector(flow);
   }
-  Vec3 vorticity(const double *x) const
+  Gradient gradient(const double *x) const
   {
     const double a = x[across[0]] - centre[0];
     const double b = x[across[1]] - centre[1];
     const double slope = a * a + b * b <= radius * radius ? -2.0 * umax / (radius * radius) : 0.0;
-    const Vec3 gradient = slope * (a * unit_vector(across[0]) + b * unit_vector(across[1]));
-    return cross(gradient, unit_vector(flow));
+    Gradient g;
+    g.d[flow][across[0]] = slope * a;
+    g.d[flow][across[1]] = slope * b;
+    return g;
   }
 };
 

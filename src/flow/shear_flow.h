@@ -10,14 +10,16 @@ namespace apf {
 
 struct ShearFlow {
   int flow;         // axis along which the fluid moves: 0 = x, 1 = y, 2 = z
-  int gradient;     // axis along which its velocity changes
+  int across;       // axis along which its velocity changes
   double origin;    // coordinate where it is at rest                 [length]
   double rate;      // du/dx_g                                        [1/time]
 
-  Vec3 velocity(const double *x) const { return rate * (x[gradient] - origin) * unit_vector(flow); }
-  Vec3 vorticity(const double *) const
+  Vec3 velocity(const double *x) const { return rate * (x[across] - origin) * unit_vector(flow); }
+  Gradient gradient(const double *) const
   {
-    return rate * cross(unit_vector(gradient), unit_vector(flow));
+    Gradient g;
+    g.d[flow][across] = rate;
+    return g;
   }
 };
 

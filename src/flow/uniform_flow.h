@@ -3,7 +3,7 @@
 #ifndef APF_UNIFORM_FLOW_H
 #define APF_UNIFORM_FLOW_H
 
-#include "../contact/vector.h"
+#include "fluid_block.h"
 
 namespace apf {
 
@@ -11,7 +11,7 @@ struct UniformFlow {
   Vec3 speed;    // velocity of the fluid                          [length/time]
 
   Vec3 velocity(const double *) const { return speed; }
-  Vec3 vorticity(const double *) const { return {0.0, 0.0, 0.0}; }
+  Gradient gradient(const double *) const { return {}; }
 };
 
 }    // namespace apf

@@ -53,7 +53,7 @@ Vec3 vorticity(const FlowField &flow, const double *x)
 {
   return std::visit(
       [x](const auto &kind) {
-        return kind.vorticity(x);
+        return kind.gradient(x).curl();
       },
       flow);
 }
@@ -133,7 +133,7 @@ TEST(FlowField, pipe_carries_half_of_its_maximum)
   EXPECT_DOUBLE_EQ(flow.velocity(axis).y, 3.0);
   EXPECT_EQ(flow.velocity(wall).y, 0.0);
   EXPECT_EQ(flow.velocity(out).y, 0.0);
-  EXPECT_EQ(norm2(flow.vorticity(out)), 0.0);
+  EXPECT_EQ(norm2(flow.gradient(out).curl()), 0.0);
 }
 
 TEST(FlowField, vorticity_is_the_curl_of_the_velocity)
@@ -152,12 +152,29 @@ TEST(FlowField, vorticity_is_the_curl_of_the_velocity)
   EXPECT_NEAR(largest, 1.7, 1e-11);    // the shear
 }
 
+TEST(FlowField, gradient_is_that_of_the_velocity)
+{
+  PointBlock points;
+  FluidBlock fluid;
+  const double x[3] = {0.2, 0.4, 0.7};
+  points.n = 2;
+  points.set(1, x);
+  for (const auto &flow : all_flows()) {
+    sample(flow, points, Detail::GRADIENT, fluid);
+    for (int a = 0; a < 3; a++) {
+      EXPECT_EQ(fluid.velocity[a][1], component(velocity(flow, x), a));
+      EXPECT_EQ(fluid.vorticity[a][1], component(vorticity(flow, x), a));
+      for (int b = 0; b < 3; b++) EXPECT_NEAR(fluid.gradient[a][b][1], slope(flow, x, a, b), 1e-11);
+    }
+  }
+}
+
 TEST(FlowField, shear_turns_clockwise_where_u_grows_with_y)
 {
   const ShearFlow flow{0, 1, 0.0, 2.0};
   const double x[3] = {0.0, 3.0, 0.0};
   EXPECT_DOUBLE_EQ(flow.velocity(x).x, 6.0);
-  EXPECT_DOUBLE_EQ(flow.vorticity(x).z, -2.0);
+  EXPECT_DOUBLE_EQ(flow.gradient(x).curl().z, -2.0);
 }
 
 TEST(Stokes, ten_micrometre_sphere_in_air)
