@@ -1,12 +1,15 @@
 #include "fix_flow_field.h"
 
+#include "atom.h"
 #include "domain.h"
 #include "error.h"
+#include "flow_grid.h"
 #include "input.h"
 #include "modify.h"
 #include "update.h"
 #include "variable.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -22,28 +25,42 @@ FixFlowField::FixFlowField(LAMMPS *lmp, int narg, char **arg) :
 
   dynamic_group_allow = 1;
   vector_flag = 1;
-  size_vector = 5;
+  size_vector = 6;
   global_freq = 1;
   extvector = 0;
 
-  int iarg = parse_kind(narg, arg);
-  while (iarg < narg) {
-    const bool is_density = strcmp(arg[iarg], "density") == 0;
-    if (!is_density && strcmp(arg[iarg], "viscosity") != 0)
-      error->all(FLERR, iarg, "Fix flow/field keyword must be density or viscosity, got {}",
-                 arg[iarg]);
-    if (iarg + 2 > narg)
-      utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + arg[iarg], error);
-    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    if (!(value > 0.0))
-      error->all(FLERR, iarg + 1, "Fix flow/field {} must be > 0, got {}", arg[iarg],
-                 arg[iarg + 1]);
-    (is_density ? density : viscosity) = value;
-    iarg += 2;
+  if (strcmp(arg[3], "file") == 0) {
+    parse_file(narg, arg);
+  } else {
+    int iarg = parse_kind(narg, arg);
+    while (iarg < narg) iarg = parse_property(iarg, narg, arg);
   }
   if (density == 0.0) error->all(FLERR, "Fix flow/field requires keyword density");
   if (viscosity == 0.0) error->all(FLERR, "Fix flow/field requires keyword viscosity");
   set_speed();
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixFlowField::~FixFlowField() = default;
+
+/* ----------------------------------------------------------------------
+   parse density or viscosity; return index of next argument
+------------------------------------------------------------------------- */
+
+int FixFlowField::parse_property(int iarg, int narg, char **arg)
+{
+  const bool is_density = strcmp(arg[iarg], "density") == 0;
+  if (!is_density && strcmp(arg[iarg], "viscosity") != 0)
+    error->all(FLERR, iarg, "Fix flow/field keyword must be density or viscosity, got {}",
+               arg[iarg]);
+  if (iarg + 2 > narg)
+    utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + arg[iarg], error);
+  const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  if (!(value > 0.0))
+    error->all(FLERR, iarg + 1, "Fix flow/field {} must be > 0, got {}", arg[iarg], arg[iarg + 1]);
+  (is_density ? density : viscosity) = value;
+  return iarg + 2;
 }
 
 /* ----------------------------------------------------------------------
@@ -67,9 +84,7 @@ int FixFlowField::parse_kind(int narg, char **arg)
       utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + kind.name, error);
     return (this->*kind.parse)(arg);
   }
-  if (strcmp(arg[3], "file") == 0)
-    error->all(FLERR, 3, "Fix flow/field kind file is not available in this version of APF");
-  error->all(FLERR, 3, "Fix flow/field kind must be channel, pipe, uniform or shear, got {}",
+  error->all(FLERR, 3, "Fix flow/field kind must be channel, pipe, uniform, shear or file, got {}",
              arg[3]);
   return 0;
 }
@@ -141,6 +156,47 @@ int FixFlowField::parse_shear(char **arg)
   return 8;
 }
 
+/* ----------------------------------------------------------------------
+   a flow from a file, with keywords of its own
+------------------------------------------------------------------------- */
+
+void FixFlowField::parse_file(int narg, char **arg)
+{
+  if (narg < 5) utils::missing_cmd_args(FLERR, "fix flow/field file", error);
+  FlowGrid::Options options;
+  const struct {
+    const char *keyword, *on, *off;
+    bool &value;
+  } choices[] = {{"loop", "yes", "no", options.loop},
+                 {"outside", "clamp", "error", options.clamp},
+                 {"wall", "reconstruct", "plain", options.reconstruct}};
+  int iarg = 5;
+  while (iarg < narg) {
+    const int start = iarg;
+    for (const auto &choice : choices) {
+      if (strcmp(arg[iarg], choice.keyword) != 0) continue;
+      if (iarg + 2 > narg)
+        utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + arg[iarg], error);
+      choice.value = strcmp(arg[iarg + 1], choice.on) == 0;
+      if (!choice.value && strcmp(arg[iarg + 1], choice.off) != 0)
+        error->all(FLERR, iarg + 1, "Fix flow/field {} must be {} or {}, got {}", choice.keyword,
+                   choice.on, choice.off, arg[iarg + 1]);
+      iarg += 2;
+      break;
+    }
+    if (iarg > start) continue;
+    if (strcmp(arg[iarg], "density") != 0 && strcmp(arg[iarg], "viscosity") != 0)
+      error->all(FLERR, iarg,
+                 "Fix flow/field keyword must be density, viscosity, loop, outside or wall, got {}",
+                 arg[iarg]);
+    iarg = parse_property(iarg, narg, arg);
+  }
+  clamp = options.clamp;
+  grid = std::make_unique<FlowGrid>(lmp, arg[4], options, 4);
+  varies = grid->series();
+  gridded = grid->flow();
+}
+
 /* ---------------------------------------------------------------------- */
 
 int FixFlowField::axis(const char *word, int iarg)
@@ -185,6 +241,7 @@ void FixFlowField::init()
     if (!input->variable->equalstyle(one.index))
       error->all(FLERR, "Fix flow/field variable {} must be of style equal", one.variable);
   }
+  if (grid) grid->check_box(Error::NOLASTLINE);
   evaluated = -1;
 }
 
@@ -216,12 +273,70 @@ void FixFlowField::evaluate()
 {
   if (evaluated == update->ntimestep) return;
   evaluated = update->ntimestep;
+  if (grid) {
+    grid->set_time(time());
+    gridded = grid->flow();
+    return;
+  }
 
   modify->clearstep_compute();
   for (auto &one : speed)
     if (one.index >= 0) one.value = input->variable->compute_equal(one.index);
   modify->addstep_compute(update->ntimestep + 1);
   set_speed();
+}
+
+double FixFlowField::time() const
+{
+  return update->atime + (update->ntimestep - update->atimestep) * update->dt;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowField::require(apf::Detail detail)
+{
+  if (!grid) return;
+  grid->require(detail);
+  grid->set_time(time());
+  gridded = grid->flow();
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixFlowField::has_distance() const
+{
+  return grid && grid->has_distance();
+}
+
+void FixFlowField::distance(const apf::PointBlock &points, apf::Lanes &out) const
+{
+  apf::FluidBlock fluid;
+  sample(points, apf::Detail::VELOCITY, fluid);
+  std::copy_n(fluid.distance, points.n, out);
+}
+
+/* ----------------------------------------------------------------------
+   name the particle that has left the grid
+------------------------------------------------------------------------- */
+
+void FixFlowField::outside(const apf::PointBlock &points) const
+{
+  apf::PointBlock one;
+  apf::FluidBlock fluid;
+  double x[3] = {0.0, 0.0, 0.0};
+  one.n = 1;
+  for (int l = 0; l < points.n; l++) {
+    for (int c = 0; c < 3; c++) x[c] = points.x[c][l];
+    one.set(0, x);
+    if (!gridded.sample(one, apf::Detail::VELOCITY, fluid)) break;
+  }
+  std::string name = "a point";
+  for (int i = 0; i < atom->nlocal; i++)
+    if (std::equal(x, x + 3, atom->x[i])) name = fmt::format("atom {}", atom->tag[i]);
+  error->one(FLERR, Error::NOLASTLINE,
+             "Fix flow/field {}: {} at ({:.8g}, {:.8g}, {:.8g}) is outside the grid, {}; keyword "
+             "outside clamp continues it",
+             id, name, x[0], x[1], x[2], grid->extent());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -239,11 +354,20 @@ void FixFlowField::set_speed()
 }
 
 /* ----------------------------------------------------------------------
-   1-3 = velocities or rate that the flow has now, 4 = density, 5 = viscosity
+   1-3 = velocities or rate that the flow has now, 4 = density, 5 = viscosity,
+   6 = time in the file's series
 ------------------------------------------------------------------------- */
 
 double FixFlowField::compute_vector(int n)
 {
   if (n < 3) return speed[n].value;
+  if (n == 5) return grid ? grid->file_time() : 0.0;
   return n == 3 ? density : viscosity;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixFlowField::memory_usage()
+{
+  return grid ? grid->memory_usage() : 0.0;
 }

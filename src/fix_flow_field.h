@@ -12,7 +12,9 @@ FixStyle(flow/field,FixFlowField);
 #include "fix.h"
 
 #include "flow/flow_field.h"
+#include "flow/grid_flow.h"
 
+#include <memory>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -20,6 +22,7 @@ namespace LAMMPS_NS {
 class FixFlowField : public Fix {
  public:
   FixFlowField(class LAMMPS *, int, char **);
+  ~FixFlowField() override;
   int setmask() override;
   void init() override;
   void setup_pre_force(int) override;
@@ -27,15 +30,26 @@ class FixFlowField : public Fix {
   void pre_force(int) override;
   void pre_force_respa(int, int, int) override;
   double compute_vector(int) override;
+  double memory_usage() override;
 
   double density;      // of the fluid                                 [mass/length^3]
   double viscosity;    // dynamic                                      [pressure time]
 
+  // What will be sampled; all ranks call it, in init() of who samples.
+  void require(apf::Detail);
+
   // Fluid at a block of points, as it is at the current step.
   void sample(const apf::PointBlock &points, apf::Detail detail, apf::FluidBlock &out) const
   {
-    apf::sample(flow, points, detail, out);
+    if (!grid)
+      apf::sample(flow, points, detail, out);
+    else if (!gridded.sample(points, detail, out) && !clamp)
+      outside(points);
   }
+
+  // Signed distance to the walls, > 0 in the fluid, where the flow knows it; sample() gives it too.
+  bool has_distance() const;
+  void distance(const apf::PointBlock &points, apf::Lanes &out) const;
 
  private:
   // a number, or an equal-style variable that is evaluated each step
@@ -46,7 +60,10 @@ class FixFlowField : public Fix {
   };
 
   apf::FlowField flow;
-  Speed speed[3];    // umax | rate | the three components of uniform flow
+  std::unique_ptr<class FlowGrid> grid;    // where the flow is that of a file,
+  apf::GridFlow gridded;                   // as it is now
+  bool clamp = false;                      // outside the grid its border goes on
+  Speed speed[3];                          // umax | rate | the three components of uniform flow
   bool varies;
   bigint evaluated;    // time step of the variables' values
 
@@ -55,10 +72,14 @@ class FixFlowField : public Fix {
   int parse_pipe(char **arg);
   int parse_uniform(char **arg);
   int parse_shear(char **arg);
+  void parse_file(int narg, char **arg);
+  int parse_property(int iarg, int narg, char **arg);
   int axis(const char *word, int iarg);
   Speed parse_speed(const char *word);
+  double time() const;
   void evaluate();
   void set_speed();
+  [[noreturn]] void outside(const apf::PointBlock &points) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -164,6 +164,7 @@ int FixFlowForce::setmask()
 void FixFlowForce::init()
 {
   field = find_field(Error::NOLASTLINE);
+  field->require(torque ? apf::Detail::VORTICITY : apf::Detail::VELOCITY);
   check_particles();
   if (force->ftm2v != 1.0)
     error->all(FLERR, Error::NOLASTLINE,

@@ -1,59 +1,56 @@
-// Chooses the build of the kernel for the processor it runs on: one binary is fast everywhere.
+// The builds of the contact kernel and of the grid's sampler.
 
+#include "../flow/grid_flow.h"
 #include "contact_kernel.h"
-
-#include <cstdlib>
-#include <iostream>
-#include <string>
+#include "instruction_set.h"
 
 namespace apf {
 
-namespace baseline {
-  ContactKernel contact_kernel(const KernelChoice &choice);
-}
-namespace avx2 {
-  ContactKernel contact_kernel(const KernelChoice &choice);
-}
-namespace avx512 {
-  ContactKernel contact_kernel(const KernelChoice &choice);
-}
+#define APF_DECLARE(isa)                                                          \
+  namespace isa {                                                                 \
+    ContactKernel contact_kernel(const KernelChoice &choice);                     \
+    bool sample_grid(const GridView &, const PointBlock &, Detail, FluidBlock &); \
+  }
+APF_DECLARE(baseline)
+#ifdef APF_X86
+APF_DECLARE(avx2)
+APF_DECLARE(avx512)
+#endif
 
 const std::vector<KernelBuild> &kernel_builds()
 {
-  static const std::vector<KernelBuild> builds = [] {
-    std::vector<KernelBuild> list{{"baseline", baseline::contact_kernel}};
+  static const auto builds = runnable<KernelBuild>({
+      {"baseline", baseline::contact_kernel},
 #ifdef APF_X86
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-      list.push_back({"avx2", avx2::contact_kernel});
-      if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-          __builtin_cpu_supports("avx512vl"))
-        list.push_back({"avx512", avx512::contact_kernel});
-    }
+      {"avx2", avx2::contact_kernel},
+      {"avx512", avx512::contact_kernel},
 #endif
-    return list;
-  }();
+  });
   return builds;
-}
-
-static const KernelBuild &chosen_build()
-{
-  const auto &builds = kernel_builds();
-  const char *wanted = std::getenv("APF_ISA");
-  if (!wanted) return builds.back();
-  for (const auto &build : builds)
-    if (std::string(wanted) == build.name) return build;
-  std::cerr << "APF: environment variable APF_ISA=" << wanted
-            << " names no instruction set of this processor and build; taking "
-            << builds.back().name << " of";
-  for (const auto &build : builds) std::cerr << " " << build.name;
-  std::cerr << std::endl;
-  return builds.back();
 }
 
 ContactKernel contact_kernel(const KernelChoice &choice)
 {
-  static const KernelBuild &build = chosen_build();
+  static const KernelBuild &build = chosen(kernel_builds());
   return build.kernel(choice);
+}
+
+const std::vector<GridSamplerBuild> &grid_sampler_builds()
+{
+  static const auto builds = runnable<GridSamplerBuild>({
+      {"baseline", baseline::sample_grid},
+#ifdef APF_X86
+      {"avx2", avx2::sample_grid},
+      {"avx512", avx512::sample_grid},
+#endif
+  });
+  return builds;
+}
+
+GridSampler grid_sampler()
+{
+  static const GridSamplerBuild &build = chosen(grid_sampler_builds());
+  return build.sampler;
 }
 
 }    // namespace apf

@@ -18,8 +18,9 @@ constexpr int block_width = 64;    // particles of a block
 using Lanes = double[block_width];
 
 struct PointBlock {
-  int n = 0;                 // points in use, <= block_width
-  alignas(64) Lanes x[3];    // their coordinates                                     [length]
+  int n = 0;    // points in use, <= block_width
+  // their coordinates; lanes that are not in use hold any numbers             [length]
+  alignas(64) Lanes x[3] = {};
 
   void set(int lane, const double *point)
   {
@@ -33,6 +34,7 @@ struct FluidBlock {
   Lanes vorticity[3];               // om = curl u                                 [1/time]
   Lanes gradient[3][3];             // [a][b] = du_a/dx_b                          [1/time]
   Lanes rate[3];                    // du/dt at a fixed point               [length/time^2]
+  Lanes distance;                   // to the walls, > 0 in the fluid; of grids that know it
 };
 
 // du_a/dx_b of one point
@@ -42,17 +44,27 @@ struct Gradient {
   Vec3 curl() const { return {d[2][1] - d[1][2], d[0][2] - d[2][0], d[1][0] - d[0][1]}; }
 };
 
-// Fills a block from a kind of flow that has velocity(x) and gradient(x), x the three coordinates.
+// Velocity alone, into arrays of one's own.
 template <class Kind>
-void sample_pointwise(const Kind &kind, const PointBlock &points, Detail detail, FluidBlock &out)
+void sample_velocity(const Kind &kind, const PointBlock &points, Lanes (&out)[3])
 {
   for (int l = 0; l < points.n; l++) {
     const double x[3] = {points.x[0][l], points.x[1][l], points.x[2][l]};
     const Vec3 u = kind.velocity(x);
-    out.velocity[0][l] = u.x;
-    out.velocity[1][l] = u.y;
-    out.velocity[2][l] = u.z;
-    if (detail == Detail::VELOCITY) continue;
+    out[0][l] = u.x;
+    out[1][l] = u.y;
+    out[2][l] = u.z;
+  }
+}
+
+// Fills a block from a kind of flow that has velocity(x) and gradient(x), x the three coordinates.
+template <class Kind>
+void sample_pointwise(const Kind &kind, const PointBlock &points, Detail detail, FluidBlock &out)
+{
+  sample_velocity(kind, points, out.velocity);
+  if (detail == Detail::VELOCITY) return;
+  for (int l = 0; l < points.n; l++) {
+    const double x[3] = {points.x[0][l], points.x[1][l], points.x[2][l]};
     const Gradient gradient = kind.gradient(x);
     const Vec3 om = gradient.curl();
     out.vorticity[0][l] = om.x;

@@ -1,0 +1,368 @@
+#include "vtkhdf_file.h"
+
+#include <cmath>
+#include <cstring>
+#include <hdf5.h>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace apf {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t), "handles of HDF5 1.10 and later");
+
+namespace {
+
+  using Dims = std::vector<std::uint64_t>;
+
+  constexpr std::uint64_t most_nodes = std::uint64_t(1) << 40;    // offsets stay exact in a double
+  constexpr std::uint64_t most_steps = std::uint64_t(1) << 24;
+
+  [[noreturn]] void fail(const std::string &text)
+  {
+    throw std::runtime_error(text);
+  }
+
+  // a handle of HDF5 and what closes it
+  class Handle {
+   public:
+    Handle(hid_t value, herr_t (*closer)(hid_t)) : id(value), close(closer) {}
+    ~Handle()
+    {
+      if (id >= 0) close(id);
+    }
+    Handle(const Handle &) = delete;
+    Handle &operator=(const Handle &) = delete;
+    operator hid_t() const { return id; }
+    explicit operator bool() const { return id >= 0; }
+
+   private:
+    hid_t id;
+    herr_t (*close)(hid_t);
+  };
+
+  // HDF5 prints its errors unless told not to.
+  class Quiet {
+   public:
+    Quiet()
+    {
+      H5Eget_auto2(H5E_DEFAULT, &print, &data);
+      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    ~Quiet() { H5Eset_auto2(H5E_DEFAULT, print, data); }
+
+   private:
+    H5E_auto2_t print;
+    void *data;
+  };
+
+  Dims dims_of(hid_t space)
+  {
+    const int rank = H5Sget_simple_extent_ndims(space);
+    if (rank < 0 || H5Sget_simple_extent_type(space) == H5S_NULL) return {0};
+    std::vector<hsize_t> dims(rank);
+    H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+    return {dims.begin(), dims.end()};
+  }
+
+  std::string text_of(const Dims &dims)
+  {
+    std::string text;
+    for (const auto n : dims) text += "[" + std::to_string(n) + "]";
+    return text.empty() ? "of a single number" : text;
+  }
+
+  std::string text_of(double a)
+  {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.10g", a);
+    return text;
+  }
+
+  bool is_number(hid_t type)
+  {
+    const auto kind = H5Tget_class(type);
+    return kind == H5T_INTEGER || kind == H5T_FLOAT;
+  }
+
+  // `count` numbers of an attribute
+  template <class T>
+  void read_attribute(hid_t group, const char *name, hid_t type, std::uint64_t count, T *values)
+  {
+    const Handle attribute(H5Aopen(group, name, H5P_DEFAULT), H5Aclose);
+    if (!attribute) fail(std::string("attribute ") + name + " is missing");
+    const Handle space(H5Aget_space(attribute), H5Sclose), stored(H5Aget_type(attribute), H5Tclose);
+    std::uint64_t n = 1;
+    for (const auto d : dims_of(space)) n = d > count ? 0 : n * d;
+    if (n != count || !is_number(stored))
+      fail(std::string("attribute ") + name + " must be " + std::to_string(count) +
+           (count == 1 ? " number" : " numbers"));
+    if (H5Aread(attribute, type, values) < 0) fail(std::string("cannot read attribute ") + name);
+  }
+
+  std::string read_text(hid_t group, const char *name)
+  {
+    const Handle attribute(H5Aopen(group, name, H5P_DEFAULT), H5Aclose);
+    if (!attribute) fail(std::string("attribute ") + name + " is missing");
+    const Handle space(H5Aget_space(attribute), H5Sclose), type(H5Aget_type(attribute), H5Tclose);
+    if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1)
+      fail(std::string("attribute ") + name + " must be a word");
+    if (H5Tis_variable_str(type) > 0) {
+      char *text = nullptr;
+      if (H5Aread(attribute, type, &text) < 0 || !text)
+        fail(std::string("cannot read attribute ") + name);
+      std::string result = text;
+      H5free_memory(text);
+      return result;
+    }
+    const std::size_t size = H5Tget_size(type);
+    if (size > 256) fail(std::string("attribute ") + name + " must be a word");
+    std::string result(size, '\0');
+    if (H5Aread(attribute, type, result.data()) < 0)
+      fail(std::string("cannot read attribute ") + name);
+    return result.substr(0, std::strlen(result.c_str()));
+  }
+
+  bool exists(hid_t group, const char *name)
+  {
+    return H5Lexists(group, name, H5P_DEFAULT) > 0;
+  }
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+VtkhdfFile::VtkhdfFile(const std::string &path)
+{
+  const Quiet quiet;
+  try {
+    open(path);
+    read_grid();
+    read_steps();
+  } catch (...) {
+    close();
+    throw;
+  }
+}
+
+VtkhdfFile::~VtkhdfFile()
+{
+  close();
+}
+
+void VtkhdfFile::close()
+{
+  if (points >= 0) H5Gclose(points);
+  if (file >= 0) H5Fclose(file);
+}
+
+void VtkhdfFile::open(const std::string &path)
+{
+  if (std::FILE *readable = std::fopen(path.c_str(), "rb"))
+    std::fclose(readable);
+  else
+    fail(std::string("cannot be opened: ") + std::strerror(errno));
+  if (H5Fis_hdf5(path.c_str()) <= 0) fail("is not an HDF5 file");
+  file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) fail("is a damaged or truncated HDF5 file");
+}
+
+void VtkhdfFile::read_grid()
+{
+  if (!exists(file, "VTKHDF")) fail("has no group VTKHDF");
+  const Handle group(H5Gopen2(file, "VTKHDF", H5P_DEFAULT), H5Gclose);
+  if (!group) fail("has no group VTKHDF");
+  const std::string type = read_text(group, "Type");
+  if (type != "ImageData") fail("Type must be ImageData, got " + type);
+  int version[2];
+  read_attribute(group, "Version", H5T_NATIVE_INT, 2, version);
+  if (version[0] < 1 || version[0] > 2)
+    fail("Version must be 1.x or 2.x, got " + std::to_string(version[0]) + "." +
+         std::to_string(version[1]));
+
+  long long extent[6];
+  double direction[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  read_attribute(group, "WholeExtent", H5T_NATIVE_LLONG, 6, extent);
+  read_attribute(group, "Origin", H5T_NATIVE_DOUBLE, 3, image.origin);
+  read_attribute(group, "Spacing", H5T_NATIVE_DOUBLE, 3, image.spacing);
+  if (H5Aexists(group, "Direction") > 0)
+    read_attribute(group, "Direction", H5T_NATIVE_DOUBLE, 9, direction);
+  for (int k = 0; k < 9; k++)
+    if (!(std::fabs(direction[k] - (k % 4 == 0 ? 1.0 : 0.0)) < 1e-12))
+      fail("Direction must be the unit matrix: the grid's axes are those of the box");
+
+  std::uint64_t nodes = 1;
+  for (int k = 0; k < 3; k++) {
+    const char axis = "xyz"[k];
+    const long long lo = extent[2 * k], hi = extent[2 * k + 1];
+    constexpr long long far = std::numeric_limits<int>::max() / 2;
+    if (lo < -far || hi > far || lo > hi)
+      fail(std::string("WholeExtent along ") + axis + " must be ascending and within +-" +
+           std::to_string(far) + ", got " + std::to_string(lo) + " " + std::to_string(hi));
+    image.n[k] = static_cast<int>(hi - lo + 1);
+    nodes *= image.n[k];
+    if (nodes > most_nodes) fail("WholeExtent has more than 2^40 nodes");
+    if (!(image.spacing[k] > 0.0) || !std::isfinite(image.spacing[k]))
+      fail(std::string("Spacing along ") + axis + " must be > 0, got " + text_of(image.spacing[k]));
+    image.origin[k] += lo * image.spacing[k];
+    if (!std::isfinite(image.origin[k]) ||
+        !std::isfinite(image.origin[k] + image.n[k] * image.spacing[k]))
+      fail(std::string("Origin and Spacing along ") + axis + " must be finite");
+  }
+
+  if (!exists(group, "PointData")) fail("has no group VTKHDF/PointData");
+  points = H5Gopen2(group, "PointData", H5P_DEFAULT);
+  if (points < 0) fail("has no group VTKHDF/PointData");
+}
+
+void VtkhdfFile::read_steps()
+{
+  if (!exists(file, "VTKHDF/Steps")) return;
+  const Handle steps(H5Gopen2(file, "VTKHDF/Steps", H5P_DEFAULT), H5Gclose);
+  if (!steps) fail("Steps must be a group");
+  long long n;
+  read_attribute(steps, "NSteps", H5T_NATIVE_LLONG, 1, &n);
+  if (n < 1 || n > static_cast<long long>(most_steps))
+    fail("Steps attribute NSteps must be in [1, 2^24], got " + std::to_string(n));
+
+  if (!exists(steps, "Values")) fail("Steps has no array Values, the times of the steps");
+  const Handle values(H5Dopen2(steps, "Values", H5P_DEFAULT), H5Dclose);
+  if (!values) fail("Steps/Values must be an array");
+  const Handle space(H5Dget_space(values), H5Sclose), type(H5Dget_type(values), H5Tclose);
+  if (dims_of(space) != Dims{std::uint64_t(n)} || !is_number(type))
+    fail("Steps/Values must be " + std::to_string(n) + " numbers, as NSteps says, but has shape " +
+         text_of(dims_of(space)));
+  std::vector<double> times(n);
+  if (H5Dread(values, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()) < 0)
+    fail("cannot read Steps/Values");
+  for (long long s = 0; s < n; s++)
+    if (!std::isfinite(times[s]) || (s > 0 && !(times[s] > times[s - 1])))
+      fail("Steps/Values must ascend, got " + text_of(times[s]) + " at step " + std::to_string(s));
+  if (n > 1) step_times = std::move(times);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool VtkhdfFile::has(const std::string &array) const
+{
+  const Quiet quiet;
+  return exists(points, array.c_str());
+}
+
+std::vector<std::string> VtkhdfFile::arrays() const
+{
+  std::vector<std::string> names;
+  H5G_info_t info;
+  if (H5Gget_info(points, &info) < 0) return names;
+  for (hsize_t k = 0; k < info.nlinks && k < 50; k++) {
+    char name[64] = "";
+    H5Lget_name_by_idx(points, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof(name), H5P_DEFAULT);
+    names.push_back(name);
+  }
+  return names;
+}
+
+// Where a frame is along the array's dimension of time: the file may let frames share data.
+std::uint64_t VtkhdfFile::frame_offset(const std::string &array, int frame) const
+{
+  const std::string path = "VTKHDF/Steps/PointDataOffsets/" + array;
+  if (step_times.empty() || !exists(file, "VTKHDF/Steps/PointDataOffsets") ||
+      !exists(file, path.c_str()))
+    return frame;
+  const Handle offsets(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!offsets) fail("Steps/PointDataOffsets/" + array + " must be an array");
+  const Handle space(H5Dget_space(offsets), H5Sclose), type(H5Dget_type(offsets), H5Tclose);
+  if (dims_of(space) != Dims{step_times.size()} || H5Tget_class(type) != H5T_INTEGER)
+    fail("Steps/PointDataOffsets/" + array + " must be " + std::to_string(step_times.size()) +
+         " whole numbers, as NSteps says, but has shape " + text_of(dims_of(space)));
+  std::vector<long long> values(step_times.size());
+  if (H5Dread(offsets, H5T_NATIVE_LLONG, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    fail("cannot read Steps/PointDataOffsets/" + array);
+  if (values[frame] < 0)
+    fail("Steps/PointDataOffsets/" + array + " must be >= 0, got " + std::to_string(values[frame]));
+  return values[frame];
+}
+
+VtkhdfFile::Shape VtkhdfFile::shape(const std::string &array, const Dims &dims, int components,
+                                    int frame) const
+{
+  const Dims nodes = {std::uint64_t(image.n[2]), std::uint64_t(image.n[1]),
+                      std::uint64_t(image.n[0])};
+  const std::uint64_t offset = frame_offset(array, frame);
+  for (const bool flat : {false, true})
+    for (const bool bare : {false, true})
+      for (const bool has_time : {false, true}) {
+        if (flat && nodes[0] != 1) continue;      // VTK drops z from planar images
+        if (bare && components != 1) continue;    // and the components of scalars
+        if (has_time && dims.empty()) continue;
+        Dims expected(nodes.begin() + flat, nodes.end());
+        if (!bare) expected.push_back(components);
+        if (has_time) expected.insert(expected.begin(), dims[0]);
+        if (dims != expected) continue;
+        if (has_time && step_times.empty() && dims[0] != 1)
+          fail("array " + array + " has " + std::to_string(dims[0]) +
+               " frames, but the file has no group Steps that says when");
+        if (has_time && offset >= dims[0])
+          fail("array " + array + " has " + std::to_string(dims[0]) + " frames, but step " +
+               std::to_string(frame) + " is to be frame " + std::to_string(offset));
+        return {has_time, flat, has_time ? offset : 0};
+      }
+  Dims wanted = nodes;
+  if (components > 1) wanted.push_back(components);
+  fail("array " + array + " must have shape " + text_of(wanted) +
+       (components > 1 ? " (z, y, x, component)" : " (z, y, x)") + " as WholeExtent says" +
+       (step_times.empty() ? "" : ", after one dimension for time") + ", got " + text_of(dims));
+}
+
+void VtkhdfFile::read(const std::string &array, int components, int frame, int layers,
+                      double *values) const
+{
+  const Quiet quiet;
+  if (!exists(points, array.c_str())) {
+    std::string list;
+    for (const auto &name : arrays()) list += " " + name;
+    fail("has no point array " + array + "; it has" + (list.empty() ? " none" : list));
+  }
+  const Handle data(H5Dopen2(points, array.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!data) fail("array " + array + " must be a dataset of HDF5");
+  const Handle space(H5Dget_space(data), H5Sclose), type(H5Dget_type(data), H5Tclose);
+  const std::size_t size = H5Tget_size(type);
+  if (H5Tget_class(type) != H5T_FLOAT || (size != 4 && size != 8))
+    fail("array " + array + " must be of type float or double");
+  const Dims dims = dims_of(space);
+  const Shape part = shape(array, dims, components, frame);
+  if (H5Dget_storage_size(data) == 0) fail("array " + array + " has no data");
+
+  std::vector<hsize_t> start(dims.size(), 0), count(dims.begin(), dims.end());
+  if (part.has_time) {
+    start[0] = part.offset;
+    count[0] = 1;
+  }
+  if (!part.flat) count[part.has_time ? 1 : 0] = layers;
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
+                      H5Sclose);
+  if (H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values) < 0)
+    fail("cannot read array " + array + ": the file is damaged or truncated");
+  check_finite(array, components, frame, layers, values);
+}
+
+void VtkhdfFile::check_finite(const std::string &array, int components, int frame, int layers,
+                              const double *values) const
+{
+  const std::size_t plane = std::size_t(image.n[0]) * image.n[1];
+  for (std::size_t v = 0; v < plane * layers * components; v++) {
+    if (std::isfinite(values[v])) continue;
+    const std::size_t node = v / components;
+    const std::size_t index[3] = {node % image.n[0], node % plane / image.n[0], node / plane};
+    std::string where, at;
+    for (int k = 0; k < 3; k++) {
+      where += (k ? " " : "") + std::to_string(index[k]);
+      at += (k ? " " : "") + text_of(image.origin[k] + index[k] * image.spacing[k]);
+    }
+    fail("array " + array + " is " + text_of(values[v]) + " at node (" + where + "), position (" +
+         at + ")" + (step_times.empty() ? "" : ", step " + std::to_string(frame)));
+  }
+}
+
+}    // namespace apf

@@ -1,0 +1,84 @@
+#include "node_memory.h"
+
+#include <new>
+
+using namespace LAMMPS_NS;
+
+#ifdef MPI_STUBS
+
+NodeMemory::NodeMemory(MPI_Comm) {}
+NodeMemory::~NodeMemory() {}
+void NodeMemory::synchronize() const {}
+void NodeMemory::release() {}
+bool NodeMemory::share(std::size_t)
+{
+  return false;
+}
+
+#else
+
+NodeMemory::NodeMemory(MPI_Comm world)
+{
+  MPI_Comm_split_type(world, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  MPI_Comm_set_errhandler(node, MPI_ERRORS_RETURN);
+  MPI_Comm_rank(node, &me);
+  MPI_Comm_size(node, &nprocs);
+}
+
+NodeMemory::~NodeMemory()
+{
+  release();
+  MPI_Comm_free(&node);
+}
+
+void NodeMemory::release()
+{
+  if (window == MPI_WIN_NULL) return;
+  MPI_Win_unlock_all(window);
+  MPI_Win_free(&window);
+}
+
+void NodeMemory::synchronize() const
+{
+  if (window == MPI_WIN_NULL) return;
+  MPI_Win_sync(window);
+  MPI_Barrier(node);
+  MPI_Win_sync(window);
+}
+
+bool NodeMemory::share(std::size_t count)
+{
+  const MPI_Aint bytes = me == 0 ? count * sizeof(double) : 0;
+  void *base;
+  int disp_unit;
+  MPI_Aint length;
+  if (MPI_Win_allocate_shared(bytes, sizeof(double), MPI_INFO_NULL, node, &base, &window) !=
+      MPI_SUCCESS) {
+    window = MPI_WIN_NULL;
+    return false;
+  }
+  MPI_Win_shared_query(window, 0, &length, &disp_unit, &base);
+  MPI_Win_lock_all(MPI_MODE_NOCHECK, window);
+  numbers = static_cast<double *>(base);
+  return true;
+}
+
+#endif
+
+/* ---------------------------------------------------------------------- */
+
+bool NodeMemory::allocate(std::size_t count)
+{
+  release();
+  own = {};
+  numbers = nullptr;
+  size = count;
+  if (nprocs > 1) return share(count);
+  try {
+    own.resize(count);
+  } catch (const std::exception &) {
+    return false;
+  }
+  numbers = own.data();
+  return true;
+}
