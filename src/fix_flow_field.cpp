@@ -1,6 +1,7 @@
 #include "fix_flow_field.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "flow_grid.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -19,13 +21,14 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixFlowField::FixFlowField(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), density(0.0), viscosity(0.0), varies(false), evaluated(-1)
+    Fix(lmp, narg, arg), density(0.0), viscosity(0.0), varies(false), evaluated(-1),
+    evaluated_at(std::numeric_limits<double>::quiet_NaN())
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix flow/field", error);
 
   dynamic_group_allow = 1;
   vector_flag = 1;
-  size_vector = 6;
+  size_vector = 9;
   global_freq = 1;
   extvector = 0;
 
@@ -37,7 +40,10 @@ FixFlowField::FixFlowField(LAMMPS *lmp, int narg, char **arg) :
   }
   if (density == 0.0) error->all(FLERR, "Fix flow/field requires keyword density");
   if (viscosity == 0.0) error->all(FLERR, "Fix flow/field requires keyword viscosity");
-  set_speed();
+  change = flow;
+  set_speed(flow, &Speed::value);
+  set_speed(change, &Speed::rate);
+  restart_global = varies && !grid;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -242,6 +248,11 @@ void FixFlowField::init()
       error->all(FLERR, "Fix flow/field variable {} must be of style equal", one.variable);
   }
   if (grid) grid->check_box(Error::NOLASTLINE);
+
+  every = 1;
+  int dim;
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *steps = static_cast<int *>(fix->extract("fluid_every", dim))) every = *steps;
   evaluated = -1;
 }
 
@@ -272,19 +283,36 @@ void FixFlowField::pre_force_respa(int /*vflag*/, int /*ilevel*/, int /*iloop*/)
 void FixFlowField::evaluate()
 {
   if (evaluated == update->ntimestep) return;
+  if (evaluated >= 0 && !grid && update->ntimestep % every) return;
   evaluated = update->ntimestep;
   if (grid) {
     grid->set_time(time());
     gridded = grid->flow();
-    return;
-  }
-
-  modify->clearstep_compute();
-  for (auto &one : speed)
-    if (one.index >= 0) one.value = input->variable->compute_equal(one.index);
-  modify->addstep_compute(update->ntimestep + 1);
-  set_speed();
+  } else
+    evaluate_variables();
 }
+
+/* ----------------------------------------------------------------------
+   values of the variables now, and how fast they changed since the last ones
+------------------------------------------------------------------------- */
+
+void FixFlowField::evaluate_variables()
+{
+  const double interval = time() - evaluated_at;
+  evaluated_at = time();
+  modify->clearstep_compute();
+  for (auto &one : speed) {
+    if (one.index < 0) continue;
+    const double before = one.value;
+    one.value = input->variable->compute_equal(one.index);
+    if (interval != 0.0) one.rate = interval > 0.0 ? (one.value - before) / interval : 0.0;
+  }
+  modify->addstep_compute((update->ntimestep / every + 1) * every);
+  set_speed(flow, &Speed::value);
+  set_speed(change, &Speed::rate);
+}
+
+/* ---------------------------------------------------------------------- */
 
 double FixFlowField::time() const
 {
@@ -341,28 +369,56 @@ void FixFlowField::outside(const apf::PointBlock &points) const
 
 /* ---------------------------------------------------------------------- */
 
-void FixFlowField::set_speed()
+void FixFlowField::set_speed(apf::FlowField &kind, double Speed::*part) const
 {
-  if (auto *uniform = std::get_if<apf::UniformFlow>(&flow))
-    uniform->speed = {speed[0].value, speed[1].value, speed[2].value};
-  else if (auto *shear = std::get_if<apf::ShearFlow>(&flow))
-    shear->rate = speed[0].value;
-  else if (auto *channel = std::get_if<apf::ChannelFlow>(&flow))
-    channel->umax = speed[0].value;
-  else if (auto *pipe = std::get_if<apf::PipeFlow>(&flow))
-    pipe->umax = speed[0].value;
+  const double first = speed[0].*part;
+  if (auto *uniform = std::get_if<apf::UniformFlow>(&kind))
+    uniform->speed = {first, speed[1].*part, speed[2].*part};
+  else if (auto *shear = std::get_if<apf::ShearFlow>(&kind))
+    shear->rate = first;
+  else if (auto *channel = std::get_if<apf::ChannelFlow>(&kind))
+    channel->umax = first;
+  else if (auto *pipe = std::get_if<apf::PipeFlow>(&kind))
+    pipe->umax = first;
 }
+
+/* ---------------------------------------------------------------------- */
 
 /* ----------------------------------------------------------------------
    1-3 = velocities or rate that the flow has now, 4 = density, 5 = viscosity,
-   6 = time in the file's series
+   6 = time in the file's series, 7-9 = d/dt of 1-3
 ------------------------------------------------------------------------- */
 
 double FixFlowField::compute_vector(int n)
 {
   if (n < 3) return speed[n].value;
+  if (n > 5) return speed[n - 6].rate;
   if (n == 5) return grid ? grid->file_time() : 0.0;
   return n == 3 ? density : viscosity;
+}
+
+/* ----------------------------------------------------------------------
+   speeds that variables gave and their rates, so that the rates go on after a restart
+------------------------------------------------------------------------- */
+
+void FixFlowField::write_restart(FILE *fp)
+{
+  if (comm->me != 0) return;
+  const double list[] = {speed[0].value, speed[1].value, speed[2].value, speed[0].rate,
+                         speed[1].rate,  speed[2].rate,  evaluated_at};
+  const int size = sizeof(list);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(list, size, 1, fp);
+}
+
+void FixFlowField::restart(char *buffer)
+{
+  const auto *list = reinterpret_cast<const double *>(buffer);
+  for (int k = 0; k < 3; k++) {
+    speed[k].value = list[k];
+    speed[k].rate = list[k + 3];
+  }
+  evaluated_at = list[6];
 }
 
 /* ---------------------------------------------------------------------- */

@@ -30,6 +30,8 @@ class FixFlowField : public Fix {
   void pre_force(int) override;
   void pre_force_respa(int, int, int) override;
   double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
   double memory_usage() override;
 
   double density;      // of the fluid                                 [mass/length^3]
@@ -41,10 +43,12 @@ class FixFlowField : public Fix {
   // Fluid at a block of points, as it is at the current step.
   void sample(const apf::PointBlock &points, apf::Detail detail, apf::FluidBlock &out) const
   {
-    if (!grid)
-      apf::sample(flow, points, detail, out);
-    else if (!gridded.sample(points, detail, out) && !clamp)
-      outside(points);
+    if (grid) {
+      if (!gridded.sample(points, detail, out) && !clamp) outside(points);
+      return;
+    }
+    apf::sample(flow, points, detail, out);
+    if (varies && detail == apf::Detail::GRADIENT) apf::sample_velocity(change, points, out.rate);
   }
 
   // Signed distance to the walls, > 0 in the fluid, where the flow knows it; sample() gives it too.
@@ -52,20 +56,23 @@ class FixFlowField : public Fix {
   void distance(const apf::PointBlock &points, apf::Lanes &out) const;
 
  private:
-  // a number, or an equal-style variable that is evaluated each step
+  // a number, or an equal-style variable that is evaluated each fluid step
   struct Speed {
     double value = 0.0;
+    double rate = 0.0;    // d/dt, over the last fluid step
     std::string variable;
     int index = -1;
   };
 
-  apf::FlowField flow;
+  apf::FlowField flow, change;             // and du/dt: the flow whose speeds are the rates
   std::unique_ptr<class FlowGrid> grid;    // where the flow is that of a file,
   apf::GridFlow gridded;                   // as it is now
   bool clamp = false;                      // outside the grid its border goes on
   Speed speed[3];                          // umax | rate | the three components of uniform flow
   bool varies;
-  bigint evaluated;    // time step of the variables' values
+  bigint evaluated;       // time step of the variables' values, in this run
+  double evaluated_at;    // and their time; not a number if there are none yet
+  int every = 1;          // time steps of a fluid step
 
   int parse_kind(int narg, char **arg);
   int parse_channel(char **arg);
@@ -78,7 +85,8 @@ class FixFlowField : public Fix {
   Speed parse_speed(const char *word);
   double time() const;
   void evaluate();
-  void set_speed();
+  void evaluate_variables();
+  void set_speed(apf::FlowField &, double Speed::*) const;
   [[noreturn]] void outside(const apf::PointBlock &points) const;
 };
 

@@ -1,8 +1,18 @@
 #include "node_memory.h"
 
-#include <new>
+#include <exception>
+#include <memory>
 
 using namespace LAMMPS_NS;
+
+static constexpr std::size_t line = 64;                        // bytes of a cache line
+static constexpr std::size_t spare = line / sizeof(double);    // numbers that aligning may cost
+
+static double *aligned(void *from)
+{
+  std::size_t space = 2 * line;
+  return static_cast<double *>(std::align(line, line, from, space));
+}
 
 #ifdef MPI_STUBS
 
@@ -48,7 +58,7 @@ void NodeMemory::synchronize() const
 
 bool NodeMemory::share(std::size_t count)
 {
-  const MPI_Aint bytes = me == 0 ? count * sizeof(double) : 0;
+  const MPI_Aint bytes = me == 0 ? (count + spare) * sizeof(double) : 0;
   void *base;
   int disp_unit;
   MPI_Aint length;
@@ -59,7 +69,7 @@ bool NodeMemory::share(std::size_t count)
   }
   MPI_Win_shared_query(window, 0, &length, &disp_unit, &base);
   MPI_Win_lock_all(MPI_MODE_NOCHECK, window);
-  numbers = static_cast<double *>(base);
+  numbers = aligned(base);    // pages begin at the same lines for all ranks
   return true;
 }
 
@@ -75,10 +85,10 @@ bool NodeMemory::allocate(std::size_t count)
   size = count;
   if (nprocs > 1) return share(count);
   try {
-    own.resize(count);
+    own.resize(count + spare);
   } catch (const std::exception &) {
     return false;
   }
-  numbers = own.data();
+  numbers = aligned(own.data());
   return true;
 }

@@ -1,4 +1,5 @@
 // Numbers that all ranks of a node read: one copy in its memory, written by the lowest rank there.
+// They begin where a cache line does.
 
 #ifndef LMP_NODE_MEMORY_H
 #define LMP_NODE_MEMORY_H

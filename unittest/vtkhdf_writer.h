@@ -96,7 +96,7 @@ class VtkhdfWriter {
 
   void steps(const std::vector<double> &times, int nsteps = -1)
   {
-    if (nsteps < 0) nsteps = static_cast<int>(times.size());
+    if (nsteps == -1) nsteps = static_cast<int>(times.size());
     series = H5Gcreate2(root, "Steps", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     attribute(series, "NSteps", H5T_NATIVE_INT, 1, &nsteps);
     if (!times.empty()) dataset(series, "Values", {times.size()}, times, H5T_NATIVE_DOUBLE);

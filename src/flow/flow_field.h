@@ -25,6 +25,15 @@ inline void sample(const FlowField &flow, const PointBlock &points, Detail detai
       flow);
 }
 
+inline void sample_velocity(const FlowField &flow, const PointBlock &points, Lanes (&out)[3])
+{
+  std::visit(
+      [&](const auto &kind) {
+        sample_velocity(kind, points, out);
+      },
+      flow);
+}
+
 }    // namespace apf
 
 #endif

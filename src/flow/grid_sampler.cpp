@@ -16,6 +16,16 @@ namespace {
 
   constexpr double tolerance = 1e-6;    // of a cell, for points that rounding put outside
 
+  using Whole = std::int64_t __attribute__((vector_size(32)));
+
+  // for numbers whose last bit is worth less than 1/2, any rounding to whole numbers below 2^52
+  constexpr double big = 6755399441055744.0;    // 1.5 2^52
+  APF_INLINE double floor(double a)
+  {
+    const double near = a + big - big;
+    return near > a ? near - 1.0 : near;
+  }
+
   template <int dims> struct Cells {
     static constexpr int corners = 1 << dims;
     alignas(64) Lanes weight[corners];
@@ -31,7 +41,8 @@ namespace {
         for (int axis = 0; axis < dims; axis++)
           if (c >> axis & 1) corner[c] += grid.stride[axis];
       }
-      alignas(64) Lanes fraction[dims], first = {}, outside = {};
+      alignas(64) Lanes fraction[dims], first = {};
+      alignas(64) std::int64_t outside[block_width] = {};
       for (int axis = 0; axis < dims; axis++) {
         const double cells = grid.cells[axis], stride = grid.stride[axis];
         const double origin = grid.origin[axis], per_length = grid.per_length[axis];
@@ -39,16 +50,21 @@ namespace {
         const double *x = points.x[axis];
         for (int l = 0; l < lanes; l++) {
           double s = (x[l] - origin) * per_length;
-          s -= cells * std::floor(s * per_cells);
+          s -= cells * floor(s * per_cells);
           const double lower = s > 0.0 ? s : 0.0, inside = lower < cells ? lower : cells;
-          outside[l] = std::fabs(s - inside) <= tolerance ? outside[l] : 1.0;
-          const double whole = std::floor(inside);
+          outside[l] |= std::fabs(s - inside) <= tolerance ? 0 : 1;
+          const double whole = floor(inside);
           const double cell = whole < cells - 1.0 ? whole : cells - 1.0;
           fraction[axis][l] = inside - cell;
           first[l] += cell * stride;
         }
       }
-      for (int l = 0; l < lanes; l++) offset[l] = static_cast<std::int64_t>(first[l]);
+      for (int l = 0; l < lanes;
+           l += 4) {    // whole numbers are the low bits of their sum with big
+        const Quad sum = load<Quad>(first + l) + big;
+        const Whole bits = (Whole) sum - (Whole) (Quad{} + big);
+        std::memcpy(offset + l, &bits, sizeof(bits));
+      }
       for (int c = 0; c < corners; c++)
         for (int l = 0; l < lanes; l++) {
           double product = c & 1 ? fraction[0][l] : 1.0 - fraction[0][l];
@@ -56,9 +72,9 @@ namespace {
             product *= c >> axis & 1 ? fraction[axis][l] : 1.0 - fraction[axis][l];
           weight[c][l] = product;
         }
-      double worst = 0.0;
-      for (int l = 0; l < points.n; l++) worst = larger(worst, outside[l]);
-      return worst == 0.0;
+      std::int64_t any = 0;
+      for (int l = 0; l < points.n; l++) any |= outside[l];
+      return any == 0;
     }
 
     // four numbers of a record, interpolated to one point

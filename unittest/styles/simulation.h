@@ -23,14 +23,14 @@
 class Simulation {
  public:
   // extra: further command-line words, for example {"-var", "x", "1"}
-  explicit Simulation(const std::vector<std::string> &extra = {})
+  explicit Simulation(const std::vector<std::string> &extra = {}, MPI_Comm ranks = MPI_COMM_WORLD)
   {
     std::vector<std::string> words = {"lmp", "-log", "none", "-screen", "none", "-nocite"};
     words.insert(words.end(), extra.begin(), extra.end());
     std::vector<char *> argv;
     for (auto &word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    handle = lammps_open(static_cast<int>(words.size()), argv.data(), MPI_COMM_WORLD, nullptr);
+    handle = lammps_open(static_cast<int>(words.size()), argv.data(), ranks, nullptr);
   }
   ~Simulation()
   {

@@ -429,9 +429,7 @@ TEST(FlowInput, errors_name_what_is_wrong)
     std::string input, message;
   } table[] = {
       {"fix f all flow/field", "missing argument"},
-      {"fix f all flow/field whirl 1", "channel, pipe, uniform or shear, got whirl"},
-      {"fix f all flow/field file a.vtkhdf density 1 viscosity 1",
-       "kind file is not available in this version"},
+      {"fix f all flow/field whirl 1", "channel, pipe, uniform, shear or file, got whirl"},
       {"fix f all flow/field channel x y 0 1", "fix flow/field channel command: missing argument"},
       {"fix f all flow/field channel x x 0 1 1 density 1 viscosity 1",
        "wall axis must differ from flow axis x"},

@@ -64,6 +64,8 @@ timestep 0.01
 )";
 const std::string fluid = " density 0.5 viscosity $(1/18)\n";
 
+constexpr double pi_over_5 = 3.14159265358979323846 / 5.0;
+
 // 4 U s (1 - s) with U = 2 and s = y/10
 void parabola(const double *x, double, double *u)
 {
@@ -95,4 +97,304 @@ TEST(FlowFile, channel_from_a_file_acts_as_the_analytic_one)
     EXPECT_GT(std::fabs(x[0][i] - (i == 0 ? 2 : i == 1 ? 5 : 7)), 0.1) << "it moved";
     EXPECT_NEAR(x[1][3 + i], x[0][3 + i], 1e-6);
   }
+}
+
+namespace {
+
+// u = c t along x everywhere: frames at t = 0, 1 and 3 of a series that is linear up to 1
+void write_series(const TemporaryFile &file)
+{
+  file.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.steps({0.0, 1.0, 3.0});
+    w.field("velocity", 3,
+            [](const double *, double t, double *u) {
+              u[0] = t < 2.0 ? 2.0 * t : 1.0;
+            },
+            {0.0, 1.0, 3.0});
+  });
+}
+// velocity of the fluid at a time, as the file has it
+double series(double t)
+{
+  return t < 1.0 ? 2.0 * t : 2.0 - 0.5 * (t - 1.0);
+}
+
+// spheres that follow the fluid within a step of it
+const std::string light = " density 0.5 viscosity 1e4\n";
+
+}    // namespace
+
+TEST(FlowFile, series_is_followed_in_time)
+{
+  const TemporaryFile file("apf_series");
+  write_series(file);
+  Simulation sim;
+  sim.run(spheres + "fix flow all flow/field file " + file.path + light +
+          "fix drag all flow/force flow drag stokes\nrun 40\n");
+  for (int n = 0; n < 5; n++) {    // the velocity at the end of a step is that a half step ago
+    const double t = 0.4 + 0.5 * n;
+    EXPECT_NEAR(sim.value("f_flow[6]"), t, 1e-12);
+    EXPECT_NEAR(sim.value("vx[2]"), series(t), 0.011) << "t = " << t;
+    EXPECT_EQ(sim.value("vy[2]"), 0.0);
+    sim.run("run 50\n");
+  }
+  const auto error = sim.error_of("run 200\n");
+  EXPECT_NE(error.find("lasts from 0 to 3, the simulation is at time 3.01"), std::string::npos)
+      << error;
+}
+
+TEST(FlowFile, series_in_a_loop_begins_again)
+{
+  const TemporaryFile file("apf_loop");
+  write_series(file);
+  Simulation sim;
+  sim.run(spheres + "fix flow all flow/field file " + file.path + " loop yes" + light +
+          "fix drag all flow/force flow drag stokes\nrun 650\n");
+  EXPECT_NEAR(sim.value("f_flow[6]"), 0.5, 1e-9);
+  EXPECT_NEAR(sim.value("vx[2]"), series(0.5), 0.011);
+  sim.run("reset_timestep 0 time -1\nrun 0\n");
+  EXPECT_NEAR(sim.value("f_flow[6]"), 2.0, 1e-9);
+}
+
+TEST(FlowFile, restart_in_mid_series_goes_on_exactly)
+{
+  const TemporaryFile file("apf_restart"), restart("apf_restart_of_lammps");
+  write_series(file);
+  const std::string fixes = "fix flow all flow/field file " + file.path + fluid +
+      "fix drag all flow/force flow drag stokes\n";
+  double straight[2][3];
+  {
+    Simulation sim;
+    sim.run(spheres + fixes + "run 130\nwrite_restart " + restart.path + "\nrun 130\n");
+    for (int i = 0; i < 3; i++) straight[0][i] = sim.lammps()->atom->x[i][0];
+  }
+  Simulation sim;
+  sim.run("read_restart " + restart.path +
+          "\npair_style zero 1.0 nocoeff\npair_coeff * *\nfix move all nve/sphere\n" + fixes +
+          "run 130\n");
+  for (int i = 0; i < 3; i++) EXPECT_EQ(sim.lammps()->atom->x[i][0], straight[0][i]);
+}
+
+TEST(FlowFile, speed_from_a_variable_has_a_rate)
+{
+  const TemporaryFile restart("apf_rate_restart");
+  const std::string flow = "variable u equal sin(3*step*dt)\n"
+                           "fix flow all flow/field channel x y 0 10 v_u" +
+      fluid;
+  Simulation sim;
+  sim.run(spheres + flow + "run 0\n");
+  EXPECT_EQ(sim.value("f_flow[7]"), 0.0) << "nothing is known before the first step";
+  sim.run("run 50\n");
+  const double rate = (std::sin(1.5) - std::sin(3 * 0.49)) / 0.01;
+  EXPECT_NEAR(sim.value("f_flow[7]"), rate, 1e-10);
+  EXPECT_NEAR(rate, 3.0 * std::cos(1.5 - 0.015), 1e-3);
+  sim.run("run 0\n");
+  EXPECT_NEAR(sim.value("f_flow[7]"), rate, 1e-10) << "a new run forgets nothing";
+  sim.run("write_restart " + restart.path + "\nclear\nread_restart " + restart.path +
+          "\npair_style zero 1.0 nocoeff\npair_coeff * *\nfix move all nve/sphere\n" + flow +
+          "run 0\n");
+  EXPECT_NEAR(sim.value("f_flow[7]"), rate, 1e-10) << "nor does a restart";
+}
+
+TEST(FlowFile, fluid_step_of_the_integrator_is_that_of_variables)
+{
+  Simulation sim;
+  sim.run(spheres);
+  sim.run("unfix move\npair_style granular/adhesive\npair_coeff * * jkr 1e3 0.3 0\n"
+          "comm_modify vel yes\nneighbor 2 bin\n"
+          "fix move all nve/sphere/mts collision 2 fluid 10\n"
+          "variable u equal step\n"
+          "fix flow all flow/field uniform v_u 0 0" +
+          fluid + "run 17\n");
+  EXPECT_EQ(sim.value("f_flow[1]"), 10.0);
+  EXPECT_NEAR(sim.value("f_flow[7]"), 10.0 / 0.1, 1e-9);
+  sim.run("run 4\n");
+  EXPECT_EQ(sim.value("f_flow[1]"), 20.0);
+}
+
+TEST(FlowFile, leaving_the_grid_is_an_error_or_clamped)
+{
+  const TemporaryFile file("apf_outside");
+  file.write({3, 3, 3}, {0, 0, 0}, {5, 5, 2.5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, [](const double *x, double, double *u) {
+      u[0] = 1.0 + x[1];
+    });
+  });
+  const std::string shrunk = spheres + "change_box all boundary p f s\n";
+  const std::string field = "fix flow all flow/field file " + file.path + fluid;
+  const std::string forces = "fix drag all flow/force flow drag stokes\nset atom 2 z 6.5\nrun 1\n";
+  {
+    Simulation sim;
+    const auto error = sim.error_of(shrunk + field + forces);
+    for (const std::string word : {"Fix flow/field flow: atom 2 at (5", "6.5) is outside the grid",
+                                   "z = 0 to 5", "outside clamp"})
+      EXPECT_NE(error.find(word), std::string::npos) << word << " not in " << error;
+  }
+  Simulation sim;
+  sim.run(spheres + "fix flow all flow/field file " + file.path + " outside clamp" + light +
+          forces);
+  EXPECT_NEAR(sim.value("vx[2]"), 6.0, 1e-3);
+}
+
+TEST(FlowFile, errors_name_what_is_wrong)
+{
+  const TemporaryFile good("apf_good"), bad("apf_bad"), small("apf_small"), flat("apf_flat");
+  good.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+  });
+  bad.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("speed", 3, parabola);
+  });
+  small.write({3, 3, 3}, {0, 0, 0}, {5, 4.9, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+  });
+  flat.write({3, 3, 1}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+  });
+  const std::string file = "fix f all flow/field file ";
+  const struct {
+    std::string input, message, word;
+  } table[] = {
+      {"fix f all flow/field file", "fix flow/field file command: missing argument", ""},
+      {file + "none.vtkhdf" + fluid, "none.vtkhdf: cannot be opened", "none.vtkhdf"},
+      {file + bad.path + fluid, "has no point array velocity; it has speed", bad.path},
+      {file + small.path + fluid,
+       "the grid spans 0 to 9.8 along y and does not cover the box, 0 to 10", small.path},
+      {file + flat.path + fluid, "3d simulations need 2 or more nodes along z, got 1", flat.path},
+      {file + good.path + " density 1", "requires keyword viscosity", ""},
+      {file + good.path + " loop", "fix flow/field loop command: missing argument", ""},
+      {file + good.path + " loop maybe" + fluid, "loop must be yes or no, got maybe", "maybe"},
+      {file + good.path + " outside stop" + fluid, "outside must be clamp or error, got stop",
+       "stop"},
+      {file + good.path + " wall smooth" + fluid, "wall must be reconstruct or plain, got smooth",
+       "smooth"},
+      {file + good.path + " speed 3" + fluid,
+       "keyword must be density, viscosity, loop, outside or wall, got speed", "speed"},
+      {file + good.path + " density 0", "density must be > 0, got 0", "0"},
+      {"change_box all triclinic\n" + file + good.path + fluid, "requires an orthogonal box",
+       good.path},
+      {file + good.path + fluid + "change_box all x final 0 9\nrun 0",
+       "the box must keep its length and boundaries along x", ""},
+      {file + good.path + fluid + "fix d all deform 1 x scale 1.1\nrun 0",
+       "the box must keep its length and boundaries along x", ""},
+      {"fix f all flow/field uniform 1 0 0 loop yes" + fluid,
+       "keyword must be density or viscosity, got loop", "loop"},
+  };
+  for (const auto &row : table) {
+    Simulation sim;
+    sim.run(spheres);
+    const std::string error = sim.error_of(row.input);
+    EXPECT_NE(error.find(row.message), std::string::npos) << row.input << "\ngave: " << error;
+    if (row.word.empty()) continue;    // the word is underlined
+    EXPECT_NE(error.find(" " + std::string(row.word.size(), '^')), std::string::npos)
+        << row.input << "\ngave: " << error;
+  }
+}
+
+TEST(FlowFile, planar_files)
+{
+  const TemporaryFile one("apf_planar1"), three("apf_planar3");
+  for (const auto *file : {&one, &three})
+    file->write({3, 41, file == &one ? 1 : 3}, {0, 0, 0}, {5, 0.25, 1}, [](VtkhdfWriter &w) {
+      w.field("velocity", 3, parabola);
+    });
+  const std::string plane = R"(
+units lj
+dimension 2
+atom_style sphere
+atom_modify map array
+region box block 0 10 0 10 -0.5 0.5
+boundary p f p
+create_box 1 box
+create_atoms 1 single 2 1 0
+set type 1 diameter 0.5 density 1.0
+pair_style zero 1.0 nocoeff
+pair_coeff * *
+fix move all nve/sphere
+fix flat all enforce2d
+)";
+  Simulation sim;
+  sim.run(plane);
+  const auto error = sim.error_of("fix flow all flow/field file " + three.path + fluid);
+  EXPECT_NE(error.find("1 or 2 layers of nodes along z, got 3"), std::string::npos) << error;
+  sim.run("fix flow all flow/field file " + one.path + light +
+          "fix drag all flow/force flow drag stokes torque yes\nrun 1\n");
+  EXPECT_NEAR(sim.value("vx[1]"), 0.72, 1e-3);
+  EXPECT_EQ(sim.value("vz[1]"), 0.0);
+}
+
+// ---- on 1, 2 and 4 ranks
+
+namespace {
+
+const std::string many = R"(
+units lj
+atom_style sphere
+atom_modify map array sort 0 0
+boundary p f p
+region box block 0 10 0 10 0 10
+create_box 1 box
+create_atoms 1 random 200 4711 NULL
+set type 1 diameter 0.1 density 1.0
+pair_style zero 1.0 nocoeff
+pair_coeff * *
+fix move all nve/sphere
+timestep 0.01
+)";
+
+}    // namespace
+
+TEST(RanksFlowFile, forces_do_not_depend_on_ranks)
+{
+  const TemporaryFile file("apf_ranks");
+  const std::vector<double> times = {0.0, 0.1, 0.2, 0.3};
+  file.write({9, 17, 11}, {0, 0, 0}, {1.25, 0.625, 1}, [&](VtkhdfWriter &w) {
+    w.steps(times);
+    w.field(
+        "velocity", 3,
+        [](const double *x, double t, double *u) {
+          u[0] = std::sin(2.0 * pi_over_5 * x[0]) + t;
+          u[1] = std::cos(x[1] * (1.0 + t));
+          u[2] = 0.1 * std::sin(2.0 * pi_over_5 * x[2]);
+        },
+        times);
+    w.field("distance", 1, [](const double *x, double, double *s) {
+      s[0] = std::min(x[1] - 0.3, 9.6 - x[1]);
+    });
+  });
+  const std::string commands = many + "fix flow all flow/field file " + file.path +
+      " loop yes outside clamp" + fluid +
+      "fix drag all flow/force flow drag stokes torque yes\nrun 47\n";
+  // the same on this rank alone
+  std::vector<double> alone;
+  {
+    Simulation sim({}, MPI_COMM_SELF);
+    sim.run(commands);
+    for (int tag = 1; tag <= 200; tag++) {
+      const int i = sim.lammps()->atom->map(tag);
+      for (int c = 0; c < 3; c++) {
+        alone.push_back(sim.lammps()->atom->x[i][c]);
+        alone.push_back(sim.lammps()->atom->omega[i][c]);
+      }
+    }
+  }
+  Simulation sim;
+  sim.run(commands);
+  int compared = 0;
+  const auto *atom = sim.lammps()->atom;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int c = 0; c < 3; c++, compared++) {
+      EXPECT_EQ(atom->x[i][c], alone[6 * (atom->tag[i] - 1) + 2 * c]);
+      EXPECT_EQ(atom->omega[i][c], alone[6 * (atom->tag[i] - 1) + 2 * c + 1]);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &compared, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_EQ(compared, 600);
+}
+
+TEST(RanksFlowFile, errors_of_files_are_those_of_all_ranks)
+{
+  Simulation sim;
+  sim.run(many);
+  const auto error = sim.error_of("fix f all flow/field file none.vtkhdf" + fluid);
+  EXPECT_NE(error.find("none.vtkhdf: cannot be opened"), std::string::npos) << error;
 }
