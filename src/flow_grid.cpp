@@ -41,7 +41,7 @@ FlowGrid::FlowGrid(LAMMPS *lmp, const std::string &path_in, const Options &optio
   make_lattice();
   if (known_distance)
     attempt([this] {
-      distance = nodes_of(read("distance", 1, 0), 1);
+      distance = nodes_of(file->read("distance", 1, 0, layers()), 1);
     });
   if (series()) now = times.front();
   require(detail);
@@ -163,15 +163,6 @@ std::string FlowGrid::extent() const
    an array of the file at the different nodes of the lattice
 ------------------------------------------------------------------------- */
 
-std::vector<double> FlowGrid::read(const char *array, int components, int frame) const
-{
-  const int layers = lattice.dims == 2 ? 1 : image.n[2];
-  const std::size_t plane = std::size_t(image.n[0]) * image.n[1];
-  std::vector<double> values(plane * layers * components);
-  file->read(array, components, frame, layers, values.data());
-  return values;
-}
-
 std::vector<double> FlowGrid::nodes_of(const std::vector<double> &values, int components) const
 {
   std::vector<double> kept;
@@ -192,7 +183,7 @@ void FlowGrid::check_repeated(const std::vector<double> &u) const
   double largest = 0.0, difference[3] = {0.0, 0.0, 0.0};
   for (const double a : u) largest = std::max(largest, std::fabs(a));
   std::size_t node = 0;
-  for (int k = 0; k < (lattice.dims == 2 ? 1 : image.n[2]); k++)
+  for (int k = 0; k < layers(); k++)
     for (int j = 0; j < image.n[1]; j++)
       for (int i = 0; i < image.n[0]; i++, node++) {
         const int index[3] = {i, j, k};
@@ -220,7 +211,7 @@ void FlowGrid::load(int frame)
 {
   const int slot = frame % 2;
   attempt([&] {
-    const auto values = read("velocity", 3, frame);
+    const auto values = file->read("velocity", 3, frame, layers());
     check_repeated(values);
     auto velocity = nodes_of(values, 3);
     if (known_distance && options.reconstruct)

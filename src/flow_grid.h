@@ -65,7 +65,7 @@ class FlowGrid : protected Pointers {
   void make_lattice();
   std::vector<double> nodes_of(const std::vector<double> &values, int components) const;
   void check_repeated(const std::vector<double> &values) const;
-  std::vector<double> read(const char *array, int components, int frame) const;
+  int layers() const { return lattice.dims == 2 ? 1 : image.n[2]; }
   void load(int frame);
 };
 

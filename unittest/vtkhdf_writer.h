@@ -71,6 +71,27 @@ class VtkhdfWriter {
     dataset(points, name.c_str(), dims, values, type);
   }
 
+  // all in chunks that are not there but for the first one
+  void mostly_missing(const std::string &name, const std::vector<hsize_t> &dims,
+                      const std::vector<hsize_t> &chunk)
+  {
+    const int rank = static_cast<int>(dims.size());
+    const hid_t space = H5Screate_simple(rank, dims.data(), nullptr);
+    const hid_t list = H5Pcreate(H5P_DATASET_CREATE),
+                one = H5Screate_simple(rank, chunk.data(), nullptr);
+    H5Pset_chunk(list, rank, chunk.data());
+    const hid_t id =
+        H5Dcreate2(points, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, list, H5P_DEFAULT);
+    const std::vector<hsize_t> start(rank, 0);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, chunk.data(), nullptr);
+    const std::vector<double> zeros(H5Sget_simple_extent_npoints(one), 0.0);
+    H5Dwrite(id, H5T_NATIVE_DOUBLE, one, space, H5P_DEFAULT, zeros.data());
+    H5Dclose(id);
+    H5Pclose(list);
+    H5Sclose(one);
+    H5Sclose(space);
+  }
+
   // `components` numbers per node from f(x, numbers), for each of the times
   using Field = std::function<void(const double *x, double t, double *numbers)>;
   void field(const std::string &name, int components, const Field &f,

@@ -16,6 +16,7 @@ namespace {
   using Dims = std::vector<std::uint64_t>;
 
   constexpr std::uint64_t most_nodes = std::uint64_t(1) << 40;    // offsets stay exact in a double
+  constexpr double best_compression = 1e5;
   constexpr std::uint64_t most_steps = std::uint64_t(1) << 24;
 
   [[noreturn]] void fail(const std::string &text)
@@ -238,6 +239,7 @@ void VtkhdfFile::read_steps()
   for (long long s = 0; s < n; s++)
     if (!std::isfinite(times[s]) || (s > 0 && !(times[s] > times[s - 1])))
       fail("Steps/Values must ascend, got " + text_of(times[s]) + " at step " + std::to_string(s));
+  nsteps = n;
   if (n > 1) step_times = std::move(times);
 }
 
@@ -266,16 +268,15 @@ std::vector<std::string> VtkhdfFile::arrays() const
 std::uint64_t VtkhdfFile::frame_offset(const std::string &array, int frame) const
 {
   const std::string path = "VTKHDF/Steps/PointDataOffsets/" + array;
-  if (step_times.empty() || !exists(file, "VTKHDF/Steps/PointDataOffsets") ||
-      !exists(file, path.c_str()))
+  if (nsteps == 0 || !exists(file, "VTKHDF/Steps/PointDataOffsets") || !exists(file, path.c_str()))
     return frame;
   const Handle offsets(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
   if (!offsets) fail("Steps/PointDataOffsets/" + array + " must be an array");
   const Handle space(H5Dget_space(offsets), H5Sclose), type(H5Dget_type(offsets), H5Tclose);
-  if (dims_of(space) != Dims{step_times.size()} || H5Tget_class(type) != H5T_INTEGER)
-    fail("Steps/PointDataOffsets/" + array + " must be " + std::to_string(step_times.size()) +
+  if (dims_of(space) != Dims{nsteps} || H5Tget_class(type) != H5T_INTEGER)
+    fail("Steps/PointDataOffsets/" + array + " must be " + std::to_string(nsteps) +
          " whole numbers, as NSteps says, but has shape " + text_of(dims_of(space)));
-  std::vector<long long> values(step_times.size());
+  std::vector<long long> values(nsteps);
   if (H5Dread(offsets, H5T_NATIVE_LLONG, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail("cannot read Steps/PointDataOffsets/" + array);
   if (values[frame] < 0)
@@ -299,7 +300,7 @@ VtkhdfFile::Shape VtkhdfFile::shape(const std::string &array, const Dims &dims, 
         if (!bare) expected.push_back(components);
         if (has_time) expected.insert(expected.begin(), dims[0]);
         if (dims != expected) continue;
-        if (has_time && step_times.empty() && dims[0] != 1)
+        if (has_time && nsteps == 0 && dims[0] != 1)
           fail("array " + array + " has " + std::to_string(dims[0]) +
                " frames, but the file has no group Steps that says when");
         if (has_time && offset >= dims[0])
@@ -311,11 +312,11 @@ VtkhdfFile::Shape VtkhdfFile::shape(const std::string &array, const Dims &dims, 
   if (components > 1) wanted.push_back(components);
   fail("array " + array + " must have shape " + text_of(wanted) +
        (components > 1 ? " (z, y, x, component)" : " (z, y, x)") + " as WholeExtent says" +
-       (step_times.empty() ? "" : ", after one dimension for time") + ", got " + text_of(dims));
+       (nsteps == 0 ? "" : ", after one dimension for time") + ", got " + text_of(dims));
 }
 
-void VtkhdfFile::read(const std::string &array, int components, int frame, int layers,
-                      double *values) const
+std::vector<double> VtkhdfFile::read(const std::string &array, int components, int frame,
+                                     int layers) const
 {
   const Quiet quiet;
   if (!exists(points, array.c_str())) {
@@ -331,7 +332,11 @@ void VtkhdfFile::read(const std::string &array, int components, int frame, int l
     fail("array " + array + " must be of type float or double");
   const Dims dims = dims_of(space);
   const Shape part = shape(array, dims, components, frame);
-  if (H5Dget_storage_size(data) == 0) fail("array " + array + " has no data");
+  const double stored = H5Dget_storage_size(data);
+  if (stored == 0.0) fail("array " + array + " has no data");
+  if (stored * best_compression < double(image.nodes()) * components * size)
+    fail("array " + array + " has " + text_of(stored) + " bytes of data for " +
+         std::to_string(image.nodes()) + " nodes: it is not complete");
 
   std::vector<hsize_t> start(dims.size(), 0), count(dims.begin(), dims.end());
   if (part.has_time) {
@@ -342,16 +347,18 @@ void VtkhdfFile::read(const std::string &array, int components, int frame, int l
   H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
   const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
                       H5Sclose);
-  if (H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values) < 0)
+  std::vector<double> values(std::size_t(image.n[0]) * image.n[1] * layers * components);
+  if (H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0)
     fail("cannot read array " + array + ": the file is damaged or truncated");
-  check_finite(array, components, frame, layers, values);
+  check_finite(array, components, frame, values);
+  return values;
 }
 
-void VtkhdfFile::check_finite(const std::string &array, int components, int frame, int layers,
-                              const double *values) const
+void VtkhdfFile::check_finite(const std::string &array, int components, int frame,
+                              const std::vector<double> &values) const
 {
   const std::size_t plane = std::size_t(image.n[0]) * image.n[1];
-  for (std::size_t v = 0; v < plane * layers * components; v++) {
+  for (std::size_t v = 0; v < values.size(); v++) {
     if (std::isfinite(values[v])) continue;
     const std::size_t node = v / components;
     const std::size_t index[3] = {node % image.n[0], node % plane / image.n[0], node / plane};

@@ -35,7 +35,7 @@ class VtkhdfFile {
 
   // Reads a frame (0 if the file is steady) of an array of float or double with so many components
   // per node: the lowest layers along z, components fastest, then x, y, z. All values are finite.
-  void read(const std::string &array, int components, int frame, int layers, double *values) const;
+  std::vector<double> read(const std::string &array, int components, int frame, int layers) const;
 
  private:
   // Which part of an array in the file a frame is: dimensions before those of the nodes
@@ -47,6 +47,7 @@ class VtkhdfFile {
   std::int64_t file = -1, points = -1;    // of HDF5: the file, its group PointData
   ImageGrid image;
   std::vector<double> step_times;
+  std::size_t nsteps = 0;    // of group Steps, 0 without it
 
   void open(const std::string &path);
   void close();
@@ -56,8 +57,8 @@ class VtkhdfFile {
   std::uint64_t frame_offset(const std::string &array, int frame) const;
   Shape shape(const std::string &array, const std::vector<std::uint64_t> &dims, int components,
               int frame) const;
-  void check_finite(const std::string &array, int components, int frame, int layers,
-                    const double *values) const;
+  void check_finite(const std::string &array, int components, int frame,
+                    const std::vector<double> &values) const;
 };
 
 }    // namespace apf
