@@ -1,5 +1,5 @@
-// A gridded flow from a file: reads it once per node, checks it against the box, and keeps the frames
-// that the present time needs in memory that the ranks of a node share.
+// A gridded flow from a file: reads it once per node, checks it against the box, and keeps the
+// frames that the present time needs in memory that the ranks of a node share.
 
 #ifndef LMP_FLOW_GRID_H
 #define LMP_FLOW_GRID_H

@@ -1,5 +1,6 @@
-// Code that is built for several instruction sets is chosen for the processor it runs on: one binary
-// is fast everywhere. A build is a struct with a name, "baseline", "avx2" or "avx512", and functions.
+// Code that is built for several instruction sets is chosen for the processor it runs on: one
+// binary is fast everywhere. A build is a struct with a name, "baseline", "avx2" or "avx512", and
+// functions.
 
 #ifndef APF_INSTRUCTION_SET_H
 #define APF_INSTRUCTION_SET_H

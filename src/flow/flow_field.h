@@ -1,6 +1,7 @@
-// The fluid as a function of position, one of several kinds. A kind is a struct with velocity(x) and
-// gradient(x), x the three coordinates, that is linear in its speed; the kind is chosen once for a
-// block of particles. A new kind is added here. Flows given by numbers on a grid are in grid_flow.h.
+// The fluid as a function of position, one of several kinds. A kind is a struct with velocity(x)
+// and gradient(x), x the three coordinates, that is linear in its speed; the kind is chosen once
+// for a block of particles. A new kind is added here. Flows given by numbers on a grid are in
+// grid_flow.h.
 
 #ifndef APF_FLOW_FIELD_H
 #define APF_FLOW_FIELD_H

@@ -64,8 +64,8 @@ void write_records(const Lattice &grid, Detail detail, const std::vector<double>
                    const std::vector<double> &distance, double *records);
 
 // The fluid at a block of points; where a point lies outside the grid, at the nearest point of it.
-// detail must not exceed that of the records. Returns whether all points are in the grid, to 1e-6 of
-// a cell. Compiled for several instruction sets.
+// detail must not exceed that of the records. Returns whether all points are in the grid, to 1e-6
+// of a cell. Compiled for several instruction sets.
 using GridSampler = bool (*)(const GridView &, const PointBlock &, Detail, FluidBlock &);
 GridSampler grid_sampler();
 

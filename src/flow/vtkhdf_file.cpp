@@ -1,9 +1,12 @@
 #include "vtkhdf_file.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <hdf5.h>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -75,9 +78,10 @@ namespace {
 
   std::string text_of(double a)
   {
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.10g", a);
-    return text;
+    std::ostringstream text;
+    text.precision(10);
+    text << a;
+    return text.str();
   }
 
   bool is_number(hid_t type)

@@ -1,13 +1,14 @@
 // Velocity at nodes outside the fluid, such that interpolation between nodes meets no-slip at the
-// wall. With phi the signed distance to it, > 0 in the fluid, a velocity that vanishes at the wall is
+// wall. With phi the signed distance to it, > 0 in the fluid, a velocity that vanishes there is
 //   u = phi g,   g smooth
 // g is fitted to the fluid's nodes around a node outside as a linear function of position, by least
 // squares of u - phi g, and continued to that node: u is then wrong by third order in the spacing,
-// interpolation stays of second order up to the wall. Nodes just inside, where u/phi would be noise,
-// carry the little weight phi^2. Nodes that belong to another wall (normal grad phi turned by more
-// than 60 degrees) are left out; where no normal exists, in a plate thinner than the spacing, the
-// velocity is 0. Nodes far from the fluid get 0, nobody reads them. After the ghost-cell methods, as
-// Y.-H. Tseng, J. H. Ferziger, J. Comput. Phys. 192, 593 (2003), doi:10.1016/j.jcp.2003.07.024
+// and interpolation stays of second order up to the wall. Nodes just inside, where u/phi would be
+// noise, carry the little weight phi^2. Nodes that belong to another wall (normal grad phi turned
+// by more than 60 degrees) are left out; where no normal exists, in a plate thinner than the
+// spacing, the velocity is 0. Nodes far from the fluid get 0, nobody reads them.
+// After the ghost-cell methods, as in Y.-H. Tseng, J. H. Ferziger, J. Comput. Phys. 192, 593
+// (2003), doi:10.1016/j.jcp.2003.07.024
 
 #ifndef APF_WALL_EXTENSION_H
 #define APF_WALL_EXTENSION_H

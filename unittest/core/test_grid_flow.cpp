@@ -1,5 +1,6 @@
-// Gridded flows without LAMMPS. Facts: linear fields are interpolated exactly, smooth ones to second
-// order, periodic ones repeat, solenoidal ones stay so; no-slip at walls that cross the grid.
+// Gridded flows without LAMMPS. Facts: linear fields are interpolated exactly, smooth ones to
+// second order, periodic ones repeat, solenoidal ones stay so; no-slip at walls that cross the
+// grid.
 
 #include "flow/grid_flow.h"
 #include "flow/wall_extension.h"
