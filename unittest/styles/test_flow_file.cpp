@@ -1,12 +1,14 @@
 // fix flow/field file through LAMMPS. Facts: a file that holds an analytic flow acts as that flow,
 // whatever the number of ranks; what is wrong with a file or a box is said.
 
+#include "fix.h"
 #include "simulation.h"
 #include "vtkhdf_writer.h"
 
 #include "gtest/gtest.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 namespace {
@@ -323,6 +325,175 @@ fix flat all enforce2d
   EXPECT_EQ(sim.value("vz[1]"), 0.0);
 }
 
+TEST(FlowFile, example_with_a_file_that_h5py_wrote)
+{
+  const TemporaryFile file("apf_h5py");
+  const std::string folder = APF_EXAMPLES "/channel/";
+  ASSERT_EQ(std::system((folder + "parabola.py " + file.path).c_str()), 0)
+      << "needs Debian's python3-h5py";
+  Simulation sim({"-var", "file", file.path});
+  sim.run("include " + folder + "in.file\n");
+  EXPECT_EQ(sim.value("v_ok"), 1.0);
+  Simulation plain({"-var", "file", file.path, "-var", "wall", "plain"});
+  plain.run("include " + folder + "in.file\n");
+  EXPECT_EQ(plain.value("v_ok"), 0.0) << "walls lie between nodes";
+}
+
+TEST(FlowFile, next_to_a_wall_between_nodes)
+{
+  const TemporaryFile file("apf_wall");    // walls at 0 and 10, nodes at -0.3, 0.7, ..
+  file.write({3, 12, 3}, {0, -0.3, 0}, {5, 1, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, [](const double *x, double t, double *u) {
+      if (x[1] > 0.0 && x[1] < 10.0) parabola(x, t, u);
+    });
+    w.field("distance", 1, [](const double *x, double, double *s) {
+      s[0] = std::min(x[1], 10.0 - x[1]);
+    });
+  });
+  const double y = 0.05, exact = 0.8 * y * (1.0 - y / 10.0);
+  double vx[2];
+  for (int k = 0; k < 2; k++) {
+    Simulation sim;
+    sim.run(spheres + "set atom 1 y 0.05\nfix flow all flow/field file " + file.path +
+            (k ? " wall plain" : " wall reconstruct") + light +
+            "fix drag all flow/force flow drag stokes\nrun 1\n");
+    vx[k] = sim.value("vx[1]");
+  }
+  const double between_nodes = 0.08 * 0.35 * 0.65;    // u''/2 times the distances to the nodes
+  EXPECT_NEAR(vx[0], exact - between_nodes, 1e-6);
+  EXPECT_NEAR(vx[1], 0.35 * 0.8 * 0.7 * 0.93, 1e-6) << "between 0 and the first node's";
+  EXPECT_GT(vx[1], 4.0 * exact);
+}
+
+// ---- collection by a fiber (Kuwabara): which particles that come along hit it
+
+namespace {
+
+// the fiber has radius 1, solid fraction alpha, mean velocity 1 along x
+// S. Kuwabara, J. Phys. Soc. Japan 14, 527 (1959), doi:10.1143/JPSJ.14.527
+constexpr double alpha = 3.14159265358979323846 / 64.0;
+const double Ku = -0.5 * std::log(alpha) - 0.75 + alpha - 0.25 * alpha * alpha;
+
+void kuwabara(const double *x, double, double *u)
+{
+  const double r2 = x[0] * x[0] + x[1] * x[1];
+  if (r2 < 1.0) return;
+  const double f = std::log(r2) - 1.0 + alpha + (1.0 - 0.5 * alpha) / r2 - 0.5 * alpha * r2;
+  const double f_r = 2.0 / r2 - 2.0 * (1.0 - 0.5 * alpha) / (r2 * r2) - alpha;
+  u[0] = 0.5 / Ku * (f + x[1] * x[1] * f_r);
+  u[1] = -0.5 / Ku * x[0] * x[1] * f_r;
+}
+
+constexpr double start = -4.0, interception = 0.05;
+
+// smallest distance from the axis of a particle that starts at height y with the fluid's velocity,
+// by Runge and Kutta's method of fourth order
+double nearest(double y, double St)
+{
+  double s[4] = {start, y, 0.0, 0.0}, nearest = 10.0;
+  kuwabara(s, 0.0, s + 2);
+  const auto rate = [St](const double *a, double *d) {
+    double u[3] = {};
+    kuwabara(a, 0.0, u);
+    for (int c = 0; c < 2; c++) {
+      d[c] = a[2 + c];
+      d[2 + c] = (u[c] - a[2 + c]) / St;
+    }
+  };
+  const double h = 0.004;
+  while (s[0] < 1.0) {
+    double k[4][4], at[4];
+    rate(s, k[0]);
+    for (int m = 1; m < 4; m++) {
+      for (int c = 0; c < 4; c++) at[c] = s[c] + (m < 3 ? 0.5 : 1.0) * h * k[m - 1][c];
+      rate(at, k[m]);
+    }
+    for (int c = 0; c < 4; c++) s[c] += h / 6.0 * (k[0][c] + 2.0 * (k[1][c] + k[2][c]) + k[3][c]);
+    nearest = std::min(nearest, std::hypot(s[0], s[1]));
+    if (nearest < 1.0) break;
+  }
+  return nearest;
+}
+
+// height from which the fiber is just touched
+double limit(double St)
+{
+  double low = 0.0, high = 2.0;
+  for (int n = 0; n < 40; n++) {
+    const double y = 0.5 * (low + high);
+    (nearest(y, St) < 1.0 + interception ? low : high) = y;
+  }
+  return low;
+}
+
+// the same through LAMMPS in a gridded field, from a row of particles around the exact height
+double gridded_limit(double St, double exact, double spacing)
+{
+  const TemporaryFile file("apf_fiber");
+  const int nx = static_cast<int>(std::lround(6.4 / spacing)) + 1;
+  const int ny = static_cast<int>(std::lround(5.2 / spacing)) + 1;
+  file.write({nx, ny, 1}, {-4.43, -2.57, 0}, {spacing, spacing, 1}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, kuwabara);
+    w.field("distance", 1, [](const double *x, double, double *s) {
+      s[0] = std::hypot(x[0], x[1]) - 1.0;
+    });
+  });
+  Simulation sim;
+  sim.run("units lj\ndimension 2\natom_style sphere\natom_modify map array\n"
+          "region box block -4.2 1.8 -2.5 2.5 -0.5 0.5\nboundary m m p\ncreate_box 1 box\n");
+  constexpr int n = 21;
+  for (int k = 0; k < n; k++) {
+    const double y = exact * (1.0 + 0.02 * (k - n / 2));
+    const double x[3] = {start, y, 0.0};
+    double u[3] = {};
+    kuwabara(x, 0.0, u);
+    std::ostringstream text;
+    text.precision(17);
+    text << "create_atoms 1 single " << start << " " << y << " 0\nset atom " << k + 1 << " vx "
+         << u[0] << " vy " << u[1] << "\n";
+    sim.run(text.str());
+  }
+  std::ostringstream viscosity;
+  viscosity.precision(17);
+  viscosity << 0.01 / (18.0 * St);
+  sim.run("set type 1 diameter 0.1 density 1.0\npair_style zero 0.3 nocoeff\npair_coeff * *\n"
+          "fix move all nve/sphere\nfix flat all enforce2d\ntimestep 0.01\n"
+          "fix flow all flow/field file " +
+          file.path + " outside clamp density 1e-3 viscosity " + viscosity.str() +
+          "\nfix drag all flow/force flow drag stokes\nrun 0\n");
+  std::vector<double> closest(n, 10.0);
+  for (int step = 0; step < 900; step++) {
+    sim.run("run 1 pre no post no\n");
+    const auto *atom = sim.lammps()->atom;
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (atom->x[i][0] > 1.0) continue;
+      auto &r = closest[atom->tag[i] - 1];
+      r = std::min(r, std::hypot(atom->x[i][0], atom->x[i][1]));
+    }
+  }
+  for (int k = 1; k < n; k++) {    // heights ascend
+    const double below = closest[k - 1] - 1.0 - interception,
+                 above = closest[k] - 1.0 - interception;
+    if (below < 0.0 && above >= 0.0)
+      return exact * (1.0 + 0.02 * (k - 1 - n / 2 - below / (above - below)));
+  }
+  return 0.0;
+}
+
+}    // namespace
+
+TEST(FlowFile, fiber_collects_as_in_the_exact_flow)
+{
+  for (double St : {1.5, 2.0, 4.0}) {
+    const double exact = limit(St);
+    double error[3];
+    for (int n = 0; n < 3; n++) error[n] = gridded_limit(St, exact, 0.2 / (1 << n)) / exact - 1.0;
+    EXPECT_LT(std::fabs(error[1]), 0.02) << "St = " << St;
+    EXPECT_NEAR(std::log2(error[1] / error[2]), 2.0, 0.4) << "St = " << St;
+    EXPECT_GT(std::fabs(error[2]), 1e-5) << "too exact to measure an order";
+  }
+}
+
 // ---- on 1, 2 and 4 ranks
 
 namespace {
@@ -393,6 +564,20 @@ TEST(RanksFlowFile, forces_do_not_depend_on_ranks)
     }
   MPI_Allreduce(MPI_IN_PLACE, &compared, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
   EXPECT_EQ(compared, 3 * n_spheres);
+}
+
+TEST(RanksFlowFile, a_node_has_one_copy)
+{
+  const TemporaryFile file("apf_memory");
+  file.write({20, 20, 20}, {0, 0, 0}, {1, 1, 1}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+  });
+  Simulation sim;
+  sim.run(many() + "fix flow all flow/field file " + file.path + fluid +
+          "fix drag all flow/force flow drag stokes\nrun 0\n");
+  double bytes = sim.lammps()->modify->get_fix_by_id("flow")->memory_usage();
+  MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_NEAR(bytes, 20 * 20 * 20 * 32, 64) << "four doubles a node";
 }
 
 TEST(RanksFlowFile, errors_of_files_are_those_of_all_ranks)
