@@ -2,8 +2,8 @@
 // Cells and weights of a block's points come first, a lane for each point. Then a record's numbers
 // are the lanes: eight records (in the plane four) are read as they lie in memory, times the
 // point's weights, and four points' sums are transposed into the arrays of the block. Gathers
-// instead, a lane for each point there as well, were as fast with AVX-512 for velocity and
-// vorticity, and half again as slow for all slopes.
+// instead, a lane for each point there as well, took 1.3 to 1.9 times as long with AVX-512 while
+// the grid fitted into a cache.
 
 #include "../contact/pack.h"
 #include "grid_flow.h"
@@ -16,16 +16,28 @@ namespace apf::APF_ISA {
 
 namespace {
 
-  constexpr double tolerance = 1e-6;    // of a cell, for points that rounding put outside
+#if defined(__AVX512F__)
+  using Real = Octet;
+#elif defined(__AVX2__)
+  using Real = Quad;
+#else
+  using Real = Pair;
+#endif
+  using Whole = decltype(Real{} < Real{});    // whole numbers of 64 bits
+  constexpr int width = sizeof(Real) / sizeof(double);
 
-  using Whole = std::int64_t __attribute__((vector_size(32)));
+  constexpr double tolerance = 1e-6;    // of a cell, for points that rounding put outside
 
   // for numbers whose last bit is worth less than 1/2, any rounding to whole numbers below 2^52
   constexpr double big = 6755399441055744.0;    // 1.5 2^52
-  APF_INLINE double floor(double a)
+  APF_INLINE Real floor(const Real &a)
   {
-    const double near = a + big - big;
+    const Real near = a + big - big;
     return near > a ? near - 1.0 : near;
+  }
+  template <class Part> APF_INLINE void store(void *to, const Part &part)
+  {
+    std::memcpy(to, &part, sizeof(part));
   }
 
   template <int dims> struct Cells {
@@ -43,40 +55,33 @@ namespace {
         for (int axis = 0; axis < dims; axis++)
           if (c >> axis & 1) corner[c] += grid.stride[axis];
       }
-      alignas(64) Lanes fraction[dims], first = {};
-      alignas(64) std::int64_t outside[block_width] = {};
-      for (int axis = 0; axis < dims; axis++) {
-        const double cells = grid.cells[axis], stride = grid.stride[axis];
-        const double origin = grid.origin[axis], per_length = grid.per_length[axis];
-        const double per_cells = grid.per_cells[axis];
-        const double *x = points.x[axis];
-        for (int l = 0; l < lanes; l++) {
-          double s = (x[l] - origin) * per_length;
-          s -= cells * floor(s * per_cells);
-          const double lower = s > 0.0 ? s : 0.0, inside = lower < cells ? lower : cells;
-          outside[l] |= std::fabs(s - inside) <= tolerance ? 0 : 1;
-          const double whole = floor(inside);
-          const double cell = whole < cells - 1.0 ? whole : cells - 1.0;
-          fraction[axis][l] = inside - cell;
-          first[l] += cell * stride;
+      alignas(64) std::int64_t inside[block_width];    // all bits
+      for (int l = 0; l < lanes; l += width) {
+        Real first{}, fraction[dims];
+        Whole within = first == first;
+        for (int axis = 0; axis < dims; axis++) {
+          const Real zero{}, cells = zero + grid.cells[axis];
+          Real s = (load<Real>(points.x[axis] + l) - grid.origin[axis]) * grid.per_length[axis];
+          s -= cells * floor(s * grid.per_cells[axis]);
+          const Real above = s > zero ? s : zero, in = above < cells ? above : cells;
+          within &= (s - in <= tolerance) & (in - s <= tolerance);
+          const Real low = floor(in), cell = low < cells - 1.0 ? low : cells - 1.0;
+          fraction[axis] = in - cell;
+          first += cell * static_cast<double>(grid.stride[axis]);
         }
-      }
-      for (int l = 0; l < lanes;
-           l += 4) {    // whole numbers are the low bits of their sum with big
-        const Quad sum = load<Quad>(first + l) + big;
-        const Whole bits = (Whole) sum - (Whole) (Quad{} + big);
-        std::memcpy(offset + l, &bits, sizeof(bits));
-      }
-      for (int c = 0; c < corners; c++)
-        for (int l = 0; l < lanes; l++) {
-          double product = c & 1 ? fraction[0][l] : 1.0 - fraction[0][l];
+        store(inside + l, within);
+        // whole numbers are the low bits of their sum with big
+        store(offset + l, (Whole) (first + big) - (Whole) (Real{} + big));
+        for (int c = 0; c < corners; c++) {
+          Real product = c & 1 ? fraction[0] : 1.0 - fraction[0];
           for (int axis = 1; axis < dims; axis++)
-            product *= c >> axis & 1 ? fraction[axis][l] : 1.0 - fraction[axis][l];
-          weight[c][l] = product;
+            product *= c >> axis & 1 ? fraction[axis] : 1.0 - fraction[axis];
+          store(weight[c] + l, product);
         }
-      std::int64_t any = 0;
-      for (int l = 0; l < points.n; l++) any |= outside[l];
-      return any == 0;
+      }
+      std::int64_t all = -1;
+      for (int l = 0; l < points.n; l++) all &= inside[l];
+      return all == -1;
     }
 
     // four numbers of a record, interpolated to one point
@@ -100,7 +105,7 @@ namespace {
                          __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5),
                          __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7),
                          __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7)};
-    for (int c = 0; c < 4; c++) std::memcpy(to[c] + lane, &row[c], sizeof(Quad));
+    for (int c = 0; c < 4; c++) store(to[c] + lane, row[c]);
   }
 
   // The first `fours` groups of four numbers of the records, to arrays of points; in a series,
