@@ -170,32 +170,14 @@ void FixFlowField::parse_file(int narg, char **arg)
 {
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix flow/field file", error);
   FlowGrid::Options options;
-  const struct {
-    const char *keyword, *on, *off;
-    bool &value;
-  } choices[] = {{"loop", "yes", "no", options.loop},
-                 {"outside", "clamp", "error", options.clamp},
-                 {"wall", "reconstruct", "plain", options.reconstruct}};
   int iarg = 5;
   while (iarg < narg) {
-    const int start = iarg;
-    for (const auto &choice : choices) {
-      if (strcmp(arg[iarg], choice.keyword) != 0) continue;
-      if (iarg + 2 > narg)
-        utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + arg[iarg], error);
-      choice.value = strcmp(arg[iarg + 1], choice.on) == 0;
-      if (!choice.value && strcmp(arg[iarg + 1], choice.off) != 0)
-        error->all(FLERR, iarg + 1, "Fix flow/field {} must be {} or {}, got {}", choice.keyword,
-                   choice.on, choice.off, arg[iarg + 1]);
-      iarg += 2;
-      break;
-    }
-    if (iarg > start) continue;
-    if (strcmp(arg[iarg], "density") != 0 && strcmp(arg[iarg], "viscosity") != 0)
+    const int next = options.parse(lmp, iarg, narg, arg);
+    if (next == iarg && strcmp(arg[iarg], "density") != 0 && strcmp(arg[iarg], "viscosity") != 0)
       error->all(FLERR, iarg,
                  "Fix flow/field keyword must be density, viscosity, loop, outside or wall, got {}",
                  arg[iarg]);
-    iarg = parse_property(iarg, narg, arg);
+    iarg = next == iarg ? parse_property(iarg, narg, arg) : next;
   }
   clamp = options.clamp;
   grid = std::make_unique<FlowGrid>(lmp, arg[4], options, 4);

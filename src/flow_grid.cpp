@@ -10,12 +10,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 using namespace LAMMPS_NS;
 
 static constexpr double box_tolerance = 1.0e-9;       // of the box's length
 static constexpr double repeat_tolerance = 1.0e-6;    // of the largest velocity
+
+/* ---------------------------------------------------------------------- */
+
+int FlowGrid::Options::parse(LAMMPS *lmp, int iarg, int narg, char **arg)
+{
+  const struct {
+    const char *keyword, *on, *off;
+    bool &value;
+  } table[] = {{"loop", "yes", "no", loop},
+               {"outside", "clamp", "error", clamp},
+               {"wall", "reconstruct", "plain", reconstruct}};
+  for (const auto &row : table) {
+    if (strcmp(arg[iarg], row.keyword) != 0) continue;
+    if (iarg + 2 > narg)
+      utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + row.keyword, lmp->error);
+    row.value = strcmp(arg[iarg + 1], row.on) == 0;
+    if (!row.value && strcmp(arg[iarg + 1], row.off) != 0)
+      lmp->error->all(FLERR, iarg + 1, "Fix flow/field {} must be {} or {}, got {}", row.keyword,
+                      row.on, row.off, arg[iarg + 1]);
+    return iarg + 2;
+  }
+  return iarg;
+}
 
 /* ---------------------------------------------------------------------- */
 

@@ -23,6 +23,9 @@ class FlowGrid : protected Pointers {
     bool loop = false;          // the series begins again when it is over
     bool clamp = false;         // outside the grid the fluid is that of its border
     bool reconstruct = true;    // velocity next to walls is made to meet no-slip
+
+    // The keyword at iarg, if it is one of these; returns the index of the next one.
+    int parse(LAMMPS *, int iarg, int narg, char **arg);
   };
 
   // iarg: the file's word in the command, for errors

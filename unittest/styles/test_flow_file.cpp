@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 namespace {
 
@@ -290,6 +291,52 @@ TEST(FlowFile, errors_name_what_is_wrong)
     if (row.word.empty()) continue;    // the word is underlined
     EXPECT_NE(error.find(" " + std::string(row.word.size(), '^')), std::string::npos)
         << row.input << "\ngave: " << error;
+  }
+}
+
+TEST(FlowFile, periodic_grids_with_and_without_their_last_layer)
+{
+  const TemporaryFile with("apf_with"), without("apf_without"), other("apf_other");
+  const auto wave = [](const double *x, double, double *u) {
+    u[0] = 1.0;
+    u[1] = std::sin(2.0 * pi_over_5 * (x[0] + x[2]));
+  };
+  for (const auto *file : {&with, &without, &other}) {
+    const int n = file == &without ? 8 : 9;
+    file->write({n, 3, n}, {0.7, 0, -3}, {1.25, 5, 1.25}, [&](VtkhdfWriter &w) {
+      w.field("velocity", 3, [&](const double *x, double t, double *u) {
+        if (file == &other && x[0] > 10.0)    // the last layer along x
+          u[0] = 7.0;
+        else
+          wave(x, t, u);
+      });
+    });
+  }
+  const TemporaryFile log("apf_log");
+  double y[3][3], x = 0.0;
+  for (int k = 0; k < 3; k++) {
+    Simulation sim;
+    sim.run("log " + log.path + "\n" + spheres + "fix flow all flow/field file " +
+            (k == 0       ? with
+                 : k == 1 ? without
+                          : other)
+                .path +
+            light + "fix drag all flow/force flow drag stokes torque yes\nrun 450\n");
+    for (int i = 0; i < 3; i++) y[k][i] = sim.lammps()->atom->x[i][1];
+    x = sim.value("x[3]");
+    sim.run("log none\n");
+    std::ifstream file(log.path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_EQ(text.find("along periodic x differ by up to 6; the first one is taken") !=
+                  std::string::npos,
+              k == 2);
+    EXPECT_EQ(text.find("periodic z differ"), std::string::npos);
+  }
+  EXPECT_NEAR(x, 1.5, 0.02) << "went through the boundary";
+  for (int i = 0; i < 3; i++) {
+    EXPECT_NEAR(y[1][i], y[0][i], 1e-10);
+    EXPECT_EQ(y[2][i], y[0][i]);
+    EXPECT_GT(std::fabs(y[0][i] - (i == 0 ? 1.0 : i == 1 ? 5.0 : 8.7)), 0.1);
   }
 }
 
