@@ -10,6 +10,7 @@
 #include "fix_contact_history.h"
 #include "fix_flow_field.h"
 #include "fix_flow_force.h"
+#include "fix_inlet_flow.h"
 #include "fix_nve_sphere_mts.h"
 #include "fix_wall_levelset.h"
 #include "pair_granular_adhesive.h"
@@ -75,6 +76,9 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
 
   creates_with_words(&create_with_words<FixFlowForce>);
   add("fix", "flow/force", "forces of the fluid on particles, APF " APF_VERSION);
+
+  creates_with_words(&create_with_words<FixInletFlow>);
+  add("fix", "inlet/flow", "particles enter with the fluid, APF " APF_VERSION);
 
   creates_with_words(&create_with_words<FixNVESphereMTS>);
   add("fix", "nve/sphere/mts", "integrates spheres, contacts in sub-steps, APF " APF_VERSION);

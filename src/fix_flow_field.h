@@ -51,6 +51,9 @@ class FixFlowField : public Fix {
     if (varies && detail == apf::Detail::GRADIENT) apf::sample_velocity(change, points, out.rate);
   }
 
+  // whether the flow changes in time
+  bool unsteady() const { return varies; }
+
   // Signed distance to the walls, > 0 in the fluid, where the flow knows it; sample() gives it too.
   bool has_distance() const;
   void distance(const apf::PointBlock &points, apf::Lanes &out) const;

@@ -472,6 +472,15 @@ void FixWallLevelset::find_again()
       if (const auto *history = store.find(i, s)) close(i, s, *history);
 }
 
+/* ---------------------------------------------------------------------- */
+
+double FixWallLevelset::distance(const double *x) const
+{
+  double nearest = surfaces[0].distance(x);
+  for (const auto &surface : surfaces) nearest = std::min(nearest, surface.distance(x));
+  return nearest;
+}
+
 /* ----------------------------------------------------------------------
    [0] elastic and adhesive energy of all wall contacts
 ------------------------------------------------------------------------- */

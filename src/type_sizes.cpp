@@ -14,6 +14,16 @@ double TypeSizes::largest_radius() const
   return *std::max_element(radius_max.begin(), radius_max.end());
 }
 
+// what fix inlet/flow says of particles to come; LAMMPS's own fixes tell the largest radius only
+static void include_smallest(LAMMPS *lmp, int type, const char *name, double &smallest)
+{
+  for (const auto &fix : lmp->modify->get_fix_list()) {
+    int of_type = type;
+    const auto *inserted = static_cast<double *>(fix->extract(name, of_type));
+    if (inserted) smallest = smallest > 0.0 ? std::min(smallest, *inserted) : *inserted;
+  }
+}
+
 TypeSizes TypeSizes::find(LAMMPS *lmp, const char *who)
 {
   const Atom *atom = lmp->atom;
@@ -42,6 +52,8 @@ TypeSizes TypeSizes::find(LAMMPS *lmp, const char *who)
       const auto *inserted = static_cast<double *>(fix->extract("radius", type));
       if (inserted) sizes.radius_max[t] = std::max(sizes.radius_max[t], *inserted);
     }
+    include_smallest(lmp, t, "smallest_radius", sizes.radius_min[t]);
+    include_smallest(lmp, t, "smallest_mass", sizes.mass_min[t]);
     if (sizes.radius_min[t] == 0.0) sizes.radius_min[t] = sizes.radius_max[t];
   }
   return sizes;

@@ -1,0 +1,576 @@
+#include "fix_inlet_flow.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_contacts.h"
+#include "fix_flow_field.h"
+#include "fix_wall_levelset.h"
+#include "math_const.h"
+#include "modify.h"
+#include "random_mars.h"
+#include "respa.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using MathConst::MY_PI;
+
+static constexpr const char *command = "Fix inlet/flow";
+
+/* ---------------------------------------------------------------------- */
+
+FixInletFlow::FixInletFlow(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag)
+    error->all(FLERR, 2,
+               "{} needs atom style sphere: radius, mass and omega per atom; atom style {} has "
+               "not all of them",
+               command, atom->get_style());
+  if (!atom->tag_enable) error->all(FLERR, 2, "{} needs atoms with IDs", command);
+  if (domain->triclinic) error->all(FLERR, 2, "{} needs an orthogonal simulation box", command);
+  restart_global = 1;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  vector_flag = 1;
+  size_vector = 10;
+  global_freq = 1;
+  extvector = 0;
+  time_depend = 1;
+
+  parse(narg, arg);
+  state.next = std::visit(
+      [this](const auto &law) {
+        return law.draw([this] {
+          return uniform();
+        });
+      },
+      diameters);
+}
+
+FixInletFlow::~FixInletFlow() = default;
+
+/* ---------------------------------------------------------------------- */
+
+int FixInletFlow::setmask()
+{
+  return POST_INTEGRATE | POST_INTEGRATE_RESPA | PRE_EXCHANGE | POST_RUN;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::init()
+{
+  auto *fix = modify->get_fix_by_id(field_id);
+  field = dynamic_cast<FixFlowField *>(fix);
+  if (!fix)
+    error->all(FLERR, Error::NOLASTLINE, "{} field fix {} does not exist", command, field_id);
+  if (!field)
+    error->all(FLERR, Error::NOLASTLINE, "{} field fix {} must be of style flow/field, got {}",
+               command, field_id, fix->style);
+  field->require(apf::Detail::VORTICITY);
+  check_plane();
+
+  walls.clear();
+  keepers.clear();
+  for (const auto &other : modify->get_fix_list()) {
+    if (auto *wall = dynamic_cast<FixWallLevelset *>(other)) walls.push_back(wall);
+    if (dynamic_cast<FixContacts *>(other)) keepers.push_back(other);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   part of the plane in which particles enter, in the box as it is
+------------------------------------------------------------------------- */
+
+apf::InletPlane FixInletFlow::rectangle() const
+{
+  apf::InletPlane plane{dim, sign, position, {dim == 0 ? 1 : 0, dim == 2 ? 1 : 2}, {}, {}};
+  for (int k = 0; k < 2; k++) {
+    const int axis = plane.across[k];
+    plane.lo[k] = std::isnan(window[k][0]) ? domain->boxlo[axis] : window[k][0];
+    plane.hi[k] = std::isnan(window[k][1]) ? domain->boxhi[axis] : window[k][1];
+  }
+  if (domain->dimension == 2) plane.lo[1] = plane.hi[1] = 0.0;
+  return plane;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::check_plane() const
+{
+  static const char axes[] = "xyz";
+  const double *lo = domain->boxlo, *hi = domain->boxhi;
+  auto shrinks = [this](int axis) {
+    return domain->boundary[axis][0] > 1 || domain->boundary[axis][1] > 1;
+  };
+  if (!shrinks(dim)) {
+    if (position < lo[dim] || position > hi[dim])
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} plane {} = {} must lie within the box, which is {} to {}", command, axes[dim],
+                 position, lo[dim], hi[dim]);
+    if (!domain->periodicity[dim] && position == (sign > 0.0 ? hi[dim] : lo[dim]))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} particles that enter along {}{} at {} would leave the box; write {}{}",
+                 command, sign > 0.0 ? "" : "-", axes[dim], position, sign > 0.0 ? "-" : "",
+                 axes[dim]);
+  }
+
+  const auto plane = rectangle();
+  const double largest = std::visit(
+      [](const auto &law) {
+        return law.largest();
+      },
+      diameters);
+  for (int k = 0; k < 2; k++) {
+    if (plane.flat(k) && domain->dimension == 2) continue;
+    const int axis = plane.across[k];
+    const bool follows_box = std::isnan(window[k][0]) || std::isnan(window[k][1]);
+    if (shrinks(axis)) {
+      if (follows_box)
+        error->all(FLERR, Error::NOLASTLINE,
+                   "{} needs keyword window with bounds along {}, where the box is shrink-wrapped",
+                   command, axes[axis]);
+    } else if (plane.lo[k] < lo[axis] || plane.hi[k] > hi[axis])
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} window along {} must lie within the box, {} to {}, got {} to {}", command,
+                 axes[axis], lo[axis], hi[axis], plane.lo[k], plane.hi[k]);
+    if (!(largest < plane.width(k)))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} particles must be smaller than the window, which is {} wide along {}, got a "
+                 "diameter of {}",
+                 command, plane.width(k), axes[axis], largest);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::setup(int /*vflag*/)
+{
+  measure();
+  if (inflow.flux() > 0.0) return;
+  if (!field->unsteady())
+    error->all(FLERR, Error::NOLASTLINE,
+               "{} the fluid of fix {} does not enter anywhere: its velocity along the direction "
+               "of entry must be > 0 in a part of the plane",
+               command, field_id);
+  if (comm->me == 0)
+    error->warning(FLERR, "{} {}: the fluid of fix {} does not enter anywhere at step {}", command,
+                   id, field_id, update->ntimestep);
+}
+
+void FixInletFlow::measure()
+{
+  inflow.measure(rectangle(), [this](const apf::PointBlock &points, apf::FluidBlock &fluid) {
+    field->sample(points, apf::Detail::VELOCITY, fluid);
+  });
+}
+
+/* ----------------------------------------------------------------------
+   The fluid is that of the last force computation, so that what enters within a step follows the
+   flow at its beginning.
+------------------------------------------------------------------------- */
+
+void FixInletFlow::post_integrate()
+{
+  const bool changed = field->unsteady() || !(rectangle() == inflow.rectangle());
+  if (changed) measure();
+  const bool inserts = update->ntimestep % every == 0;
+  state.elapsed += update->dt;
+  if (concentration > 0.0) {
+    const double volume = concentration * inflow.flux() * update->dt;
+    state.asked += volume;
+    state.owed += volume;
+  } else if (inserts && inflow.flux() > 0.0) {
+    state.asked += number * mean_size();
+    state.owed += number;
+  }
+  if (inserts && inflow.flux() > 0.0 && state.owed >= share(state.next))
+    next_reneighbor = update->ntimestep;
+}
+
+void FixInletFlow::post_integrate_respa(int ilevel, int /*iloop*/)
+{
+  if (ilevel == dynamic_cast<Respa *>(update->integrate)->nlevels - 1) post_integrate();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::pre_exchange()
+{
+  const bool inserts = next_reneighbor == update->ntimestep;
+  if (!inserts && outlets.empty()) return;
+  for (auto *keeper : keepers) keeper->pre_exchange();    // contacts are stored with their atoms
+  if (!outlets.empty()) remove_left();
+  if (inserts) insert();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::post_run()
+{
+  if (refuses && comm->me == 0)
+    error->warning(FLERR,
+                   "{} {}: {:.6g} particles could not enter yet for want of free places; they are "
+                   "{:.3g} % of those asked for",
+                   command, id, compute_vector(4),
+                   100.0 * compute_vector(4) / (compute_vector(4) + state.inserted));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixInletFlow::uniform()
+{
+  return random->uniform();
+}
+
+// what a particle takes of the space of the flow: its volume, in 2-D its area
+double FixInletFlow::size(double d) const
+{
+  return domain->dimension == 2 ? 0.25 * MY_PI * d * d : MY_PI / 6.0 * d * d * d;
+}
+
+double FixInletFlow::mean_size() const
+{
+  const int power = domain->dimension;
+  return size(1.0) *
+      std::visit(
+             [power](const auto &law) {
+               return law.moment(power);
+             },
+             diameters);
+}
+
+// what it takes of what is owed
+double FixInletFlow::share(double d) const
+{
+  return concentration > 0.0 ? size(d) : 1.0;
+}
+
+// how far from the plane particles may be that have just entered
+double FixInletFlow::travel() const
+{
+  return inflow.speed() * every * update->dt;
+}
+
+/* ----------------------------------------------------------------------
+   particles beyond an outlet are deleted and counted
+------------------------------------------------------------------------- */
+
+void FixInletFlow::remove_left()
+{
+  double gone[2] = {0.0, 0.0};    // number and mass
+  int i = 0;
+  while (i < atom->nlocal) {
+    bool leaves = false;
+    if (atom->mask[i] & groupbit)
+      for (const auto &outlet : outlets)
+        leaves |= outlet.sign * (atom->x[i][outlet.dim] - outlet.position) > 0.0;
+    if (!leaves) {
+      i++;
+      continue;
+    }
+    gone[0] += 1.0;
+    gone[1] += atom->rmass[i];
+    atom->avec->copy(atom->nlocal - 1, i, 1);
+    atom->nlocal--;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, gone, 2, MPI_DOUBLE, MPI_SUM, world);
+  if (gone[0] == 0.0) return;
+  state.left += gone[0];
+  state.left_mass += gone[1];
+  atom->natoms -= static_cast<bigint>(gone[0]);
+  forget_ghosts();
+  renew_map();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::insert()
+{
+  forget_ghosts();
+  const double largest = std::visit(
+      [](const auto &law) {
+        return law.largest();
+      },
+      diameters);
+  auto grid = near_plane(largest);
+  const auto first = static_cast<tagint>(state.newest) + 1;
+
+  std::vector<Particle> entered;
+  refuses = false;
+  while (state.owed >= share(state.next) && !refuses) {
+    Particle particle{};
+    particle.radius = 0.5 * state.next;
+    refuses = !place(particle, grid);
+    if (refuses) break;
+    grid.add(particle.x, particle.radius);
+    entered.push_back(particle);
+    state.owed -= share(state.next);
+    state.volume += size(state.next);
+    state.mass += density * MY_PI / 6.0 * state.next * state.next * state.next;
+    state.next = std::visit(
+        [this](const auto &law) {
+          return law.draw([this] {
+            return uniform();
+          });
+        },
+        diameters);
+  }
+  state.inserted += static_cast<double>(entered.size());
+  if (static_cast<double>(entered.size()) + state.newest >= MAXTAGINT)
+    error->all(FLERR, Error::NOLASTLINE, "{} new atom IDs exceed the maximum allowed ID {}",
+               command, MAXTAGINT);
+  state.newest += static_cast<double>(entered.size());
+  for (size_t n = 0; n < entered.size(); n++) create(entered[n], first + n);
+  atom->natoms += static_cast<bigint>(entered.size());
+  renew_map();
+}
+
+// Ghosts would be overwritten by new atoms; they are made again after this.
+void FixInletFlow::forget_ghosts()
+{
+  if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
+  atom->nghost = 0;
+  atom->avec->clear_bonus();
+}
+
+void FixInletFlow::renew_map()
+{
+  if (atom->map_style == Atom::MAP_NONE) return;
+  atom->map_init();
+  atom->map_set();
+}
+
+/* ----------------------------------------------------------------------
+   all particles that one may touch that enters now, of all ranks; also finds the highest ID
+------------------------------------------------------------------------- */
+
+apf::SphereGrid FixInletFlow::near_plane(double largest)
+{
+  const auto &plane = inflow.rectangle();
+  double biggest = 0.0;
+  std::vector<double> mine;
+  tagint newest = 0;
+  const int nlocal = atom->nlocal;
+  for (int i = 0; i < nlocal; i++) {
+    newest = MAX(newest, atom->tag[i]);
+    const double reach = 0.5 * largest + atom->radius[i] + gap + travel();
+    double d[3] = {};
+    d[dim] = atom->x[i][dim] - position;
+    for (int k = 0; k < 2; k++)
+      d[plane.across[k]] = atom->x[i][plane.across[k]] - 0.5 * (plane.lo[k] + plane.hi[k]);
+    domain->minimum_image(FLERR, d[0], d[1], d[2]);
+    bool near = std::fabs(d[dim]) < reach;
+    for (int k = 0; k < 2; k++)
+      near = near && std::fabs(d[plane.across[k]]) <= 0.5 * (plane.hi[k] - plane.lo[k]) + reach;
+    if (near)
+      mine.insert(mine.end(), {atom->x[i][0], atom->x[i][1], atom->x[i][2], atom->radius[i]});
+  }
+
+  int n = static_cast<int>(mine.size());
+  std::vector<bigint> told(2 * comm->nprocs);    // numbers and highest ID of each rank
+  const bigint tell[2] = {n, newest};
+  MPI_Allgather(tell, 2, MPI_LMP_BIGINT, told.data(), 2, MPI_LMP_BIGINT, world);
+  std::vector<int> counts(comm->nprocs), starts(comm->nprocs, 0);
+  for (int p = 0; p < comm->nprocs; p++) {
+    counts[p] = static_cast<int>(told[2 * p]);
+    if (p > 0) starts[p] = starts[p - 1] + counts[p - 1];
+    state.newest = std::max(state.newest, static_cast<double>(told[2 * p + 1]));
+  }
+  std::vector<double> all(starts.back() + counts.back());
+  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
+                 world);
+
+  for (size_t k = 3; k < all.size(); k += 4) biggest = std::max(biggest, all[k]);
+  const double period[3] = {domain->periodicity[0] * domain->prd[0],
+                            domain->periodicity[1] * domain->prd[1],
+                            domain->periodicity[2] * domain->prd[2]};
+  apf::SphereGrid grid(period, 0.5 * largest + std::max(biggest, 0.5 * largest) + gap);
+  for (size_t k = 0; k < all.size(); k += 4) grid.add(&all[k], all[k + 3]);
+  return grid;
+}
+
+/* ----------------------------------------------------------------------
+   A particle has entered at some moment since the last insertion, and has moved on with the fluid.
+------------------------------------------------------------------------- */
+
+bool FixInletFlow::place(Particle &particle, const apf::SphereGrid &grid)
+{
+  for (int n = 0; n < attempts; n++) {
+    double entry[3];
+    apf::Vec3 u{};
+    const bool found = inflow.draw(
+        [this] {
+          return uniform();
+        },
+        [this](const double *x) {
+          return fluid_at(x, nullptr);
+        },
+        entry, u);
+    const double age = uniform() * every * update->dt;
+    const double way = age * std::sqrt(dot(u, u));
+    const double part = way > travel() ? age * travel() / way : age;
+    particle.x[0] = entry[0] + part * u.x;
+    particle.x[1] = entry[1] + part * u.y;
+    particle.x[2] = entry[2] + part * u.z;
+    if (found && fits(entry, particle) && grid.is_free(particle.x, particle.radius, gap)) {
+      particle.v = fluid_at(particle.x, &particle.omega);
+      return true;
+    }
+    state.refused += 1.0;
+  }
+  return false;
+}
+
+/* ----------------------------------------------------------------------
+   within the window where it entered, and within box and walls where it is
+------------------------------------------------------------------------- */
+
+bool FixInletFlow::fits(const double *entry, const Particle &particle) const
+{
+  const auto &plane = inflow.rectangle();
+  for (int k = 0; k < 2; k++) {
+    const int axis = plane.across[k];
+    if (domain->dimension == 2 && axis == 2) continue;
+    if (domain->periodicity[axis] && plane.hi[k] - plane.lo[k] == domain->prd[axis]) continue;
+    if (entry[axis] - particle.radius < plane.lo[k]) return false;
+    if (entry[axis] + particle.radius > plane.hi[k]) return false;
+  }
+  for (int c = 0; c < domain->dimension; c++) {
+    if (domain->boundary[c][0] == 1 && particle.x[c] < domain->boxlo[c]) return false;
+    if (domain->boundary[c][1] == 1 && particle.x[c] >= domain->boxhi[c]) return false;
+  }
+  for (const auto *wall : walls)
+    if (wall->distance(particle.x) < particle.radius + gap) return false;
+  return true;
+}
+
+/* ----------------------------------------------------------------------
+   velocity of the fluid, and its spin if asked for
+------------------------------------------------------------------------- */
+
+apf::Vec3 FixInletFlow::fluid_at(const double *x, apf::Vec3 *spin) const
+{
+  apf::PointBlock point;
+  apf::FluidBlock fluid;
+  point.n = 1;
+  point.set(0, x);
+  field->sample(point, spin ? apf::Detail::VORTICITY : apf::Detail::VELOCITY, fluid);
+  auto first = [](const apf::Lanes(&a)[3]) {
+    return apf::Vec3{a[0][0], a[1][0], a[2][0]};
+  };
+  if (spin) *spin = 0.5 * first(fluid.vorticity);
+  return first(fluid.velocity);
+}
+
+/* ----------------------------------------------------------------------
+   Ranks at the faces of a shrink-wrapped box take what lies beyond: the box will follow.
+------------------------------------------------------------------------- */
+
+bool FixInletFlow::is_mine(const double *x) const
+{
+  for (int c = 0; c < 3; c++) {
+    const double at = MIN(MAX(x[c], domain->boxlo[c]), domain->boxhi[c]);
+    const bool last = at == domain->boxhi[c] && domain->subhi[c] == domain->boxhi[c];
+    if (at < domain->sublo[c] || (at >= domain->subhi[c] && !last)) return false;
+  }
+  return true;
+}
+
+void FixInletFlow::create(const Particle &particle, tagint id)
+{
+  double x[3] = {particle.x[0], particle.x[1], particle.x[2]};
+  imageint image = ((imageint) IMGMAX << IMG2BITS) | ((imageint) IMGMAX << IMGBITS) | IMGMAX;
+  domain->remap(x, image);
+  if (!is_mine(x)) return;
+  atom->avec->create_atom(type, x);
+  const int i = atom->nlocal - 1;
+  const double r = particle.radius;
+  atom->tag[i] = id;
+  atom->mask[i] = 1 | groupbit;
+  atom->image[i] = image;
+  atom->radius[i] = r;
+  atom->rmass[i] = 4.0 / 3.0 * MY_PI * r * r * r * density;
+  const apf::Vec3 &v = particle.v, &w = particle.omega;
+  const double motion[2][3] = {{v.x, v.y, v.z}, {w.x, w.y, w.z}};
+  std::copy_n(motion[0], 3, atom->v[i]);
+  std::copy_n(motion[1], 3, atom->omega[i]);
+  modify->create_attribute(i);
+
+  // r-RESPA keeps the forces of each level, and begins with these before it computes them
+  if (auto *levels = modify->get_fix_by_id("RESPA")) {
+    std::vector<double> none(6 * dynamic_cast<Respa *>(update->integrate)->nlevels, 0.0);
+    levels->unpack_exchange(i, none.data());
+  }
+}
+
+/* ----------------------------------------------------------------------
+   1 = entered, 2 = places refused, 3 = mass, 4 = volume entered, 5 = number owed, 6 = flux asked
+   now, 7 = its mean over time, 8 = mean flux entered, 9 = left, 10 = mass that left
+------------------------------------------------------------------------- */
+
+double FixInletFlow::compute_vector(int n)
+{
+  const double time = state.elapsed > 0.0 ? state.elapsed : 1.0;
+  const double owed = state.owed / (concentration > 0.0 ? mean_size() : 1.0);
+  const double per_insertion = inflow.flux() > 0.0 ? number * mean_size() : 0.0;
+  const double now = concentration > 0.0 ? concentration * inflow.flux()
+                                         : per_insertion / (every * update->dt);
+  const double values[10] = {
+      state.inserted,     state.refused,       state.mass, state.volume,   owed, now,
+      state.asked / time, state.volume / time, state.left, state.left_mass};
+  return values[n];
+}
+
+/* ----------------------------------------------------------------------
+   sizes of what may enter, for cut-offs and time steps of contacts; dim holds the type
+------------------------------------------------------------------------- */
+
+void *FixInletFlow::extract(const char *name, int &dim)
+{
+  if (dim != type) return nullptr;
+  const double r_lo = 0.5 *
+      std::visit(
+                          [](const auto &law) {
+                            return law.smallest();
+                          },
+                          diameters);
+  if (strcmp(name, "radius") == 0)
+    extracted = 0.5 *
+        std::visit(
+                    [](const auto &law) {
+                      return law.largest();
+                    },
+                    diameters);
+  else if (strcmp(name, "smallest_radius") == 0)
+    extracted = r_lo;
+  else if (strcmp(name, "smallest_mass") == 0)
+    extracted = 4.0 / 3.0 * MY_PI * r_lo * r_lo * r_lo * density;
+  else
+    return nullptr;
+  dim = 0;
+  return &extracted;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::write_restart(FILE *fp)
+{
+  random->get_state(state.random);
+  if (comm->me != 0) return;
+  const int bytes = sizeof(State);
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(&state, sizeof(State), 1, fp);
+}
+
+void FixInletFlow::restart(char *buf)
+{
+  memcpy(&state, buf, sizeof(State));
+  random->set_state(state.random);
+}

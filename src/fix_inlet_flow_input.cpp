@@ -1,0 +1,242 @@
+// The words of fix inlet/flow.
+
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_inlet_flow.h"
+#include "random_mars.h"
+
+#include "flow/di_felice.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+static constexpr const char *command = "Fix inlet/flow";
+
+// ID group inlet/flow PLANE POSITION FIELD-ID keywords
+void FixInletFlow::parse(int narg, char **arg)
+{
+  if (narg < 6) utils::missing_cmd_args(FLERR, "fix inlet/flow", error);
+  dim = parse_axis(3, arg, "plane", sign);
+  position = utils::numeric(FLERR, arg[4], false, lmp);
+  field_id = arg[5];
+  for (auto &side : window) side[0] = side[1] = NAN;
+
+  int iarg = 6;
+  while (iarg < narg) {
+    const std::string word = arg[iarg];
+    if (word == "window")
+      iarg = parse_window(iarg, narg, arg);
+    else if (word == "diameter")
+      iarg = parse_diameter(iarg, narg, arg);
+    else if (word == "outlet")
+      iarg = parse_outlet(iarg, narg, arg);
+    else
+      iarg = parse_number(iarg, narg, arg);
+  }
+  check_required();
+}
+
+/* ----------------------------------------------------------------------
+   keywords with one number
+------------------------------------------------------------------------- */
+
+int FixInletFlow::parse_number(int iarg, int narg, char **arg)
+{
+  const std::string word = arg[iarg];
+  auto real = [&] {
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow " + word, error);
+    return utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  };
+  auto integer = [&](int least) {
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow " + word, error);
+    const int value = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+    if (value < least)
+      error->all(FLERR, iarg + 1, "{} {} must be >= {}, got {}", command, word, least,
+                 arg[iarg + 1]);
+    return value;
+  };
+  auto require = [&](bool good, const std::string &range) {
+    if (!good)
+      error->all(FLERR, iarg + 1, "{} {} must be {}, got {}", command, word, range, arg[iarg + 1]);
+  };
+
+  if (word == "concentration") {
+    concentration = real();
+    require(concentration > 0.0 && concentration <= apf::max_concentration,
+            fmt::format("in (0, {}], the volume of particles per volume", apf::max_concentration));
+  } else if (word == "number") {
+    number = real();
+    require(number > 0.0 && std::isfinite(number), "> 0");
+  } else if (word == "every") {
+    every = integer(1);
+  } else if (word == "density") {
+    density = real();
+    require(density > 0.0 && std::isfinite(density), "> 0");
+  } else if (word == "gap") {
+    gap = real();
+    require(gap >= 0.0 && std::isfinite(gap), ">= 0");
+  } else if (word == "attempts") {
+    attempts = integer(1);
+  } else if (word == "seed") {
+    const int seed = integer(1);
+    require(seed <= 900000000, "from 1 to 900000000");
+    random = std::make_unique<RanMars>(lmp, seed);
+  } else if (word == "type") {
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow type", error);
+    type = utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ATOM, lmp);
+    require(type >= 1 && type <= atom->ntypes, fmt::format("from 1 to {}", atom->ntypes));
+  } else {
+    error->all(FLERR, iarg,
+               "{} keyword must be concentration, number, every, diameter, density, type, seed, "
+               "window, gap, attempts or outlet, got {}",
+               command, word);
+  }
+  return iarg + 2;
+}
+
+/* ---------------------------------------------------------------------- */
+
+// x, y, z or, against the axis, -x, -y, -z
+int FixInletFlow::parse_axis(int iarg, char **arg, const char *what, double &direction)
+{
+  const char *word = arg[iarg];
+  direction = word[0] == '-' ? -1.0 : 1.0;
+  const char *letter = word[0] == '-' ? word + 1 : word;
+  const int axes = domain->dimension;
+  for (int axis = 0; axis < axes; axis++)
+    if (letter[0] == "xyz"[axis] && letter[1] == '\0') return axis;
+  error->all(FLERR, iarg, "{} {} must be {}, got {}", command, what,
+             axes == 2 ? "x, -x, y or -y in a 2d simulation" : "x, -x, y, -y, z or -z", word);
+  return 0;
+}
+
+// bounds along the axes across the plane, in the order x, y, z; NULL leaves the box's
+int FixInletFlow::parse_window(int iarg, int narg, char **arg)
+{
+  const int axes = domain->dimension - 1;
+  if (iarg + 1 + 2 * axes > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow window", error);
+  for (int k = 0; k < axes; k++) {
+    const int at = iarg + 1 + 2 * k;
+    for (int end = 0; end < 2; end++)
+      if (strcmp(arg[at + end], "NULL") != 0)
+        window[k][end] = utils::numeric(FLERR, arg[at + end], false, lmp);
+    if (window[k][1] <= window[k][0])
+      error->all(FLERR, at + 1, "{} window upper bound must be > lower bound {}, got {}", command,
+                 arg[at], arg[at + 1]);
+  }
+  return iarg + 1 + 2 * axes;
+}
+
+/* ----------------------------------------------------------------------
+   diameter D | uniform LO HI | lognormal MEDIAN GSD LO HI | poly number|volume N d f ...
+------------------------------------------------------------------------- */
+
+int FixInletFlow::parse_diameter(int iarg, int narg, char **arg)
+{
+  if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow diameter", error);
+  const std::string law = arg[iarg + 1];
+  auto need = [&](int words) {
+    if (iarg + words > narg)
+      utils::missing_cmd_args(FLERR, "fix inlet/flow diameter " + law, error);
+  };
+  if (law == "uniform") {
+    need(4);
+    const double lo = positive(iarg + 2, arg, "diameter"), hi = positive(iarg + 3, arg, "diameter");
+    check_order(iarg + 3, arg, lo, hi);
+    diameters = apf::UniformDiameters{lo, hi};
+    return iarg + 4;
+  }
+  if (law == "lognormal") {
+    need(6);
+    const apf::LognormalDiameters lognormal{
+        positive(iarg + 2, arg, "median diameter"), positive(iarg + 3, arg, "geometric deviation"),
+        positive(iarg + 4, arg, "diameter"), positive(iarg + 5, arg, "diameter")};
+    if (!(lognormal.gsd > 1.0))
+      error->all(FLERR, iarg + 3, "{} geometric standard deviation must be > 1, got {}", command,
+                 arg[iarg + 3]);
+    check_order(iarg + 5, arg, lognormal.lo, lognormal.hi);
+    if (lognormal.kept() < 0.01)
+      error->all(FLERR, iarg + 4,
+                 "{} bounds {} and {} must keep at least 1 % of the lognormal distribution, got "
+                 "{:.3g} %",
+                 command, arg[iarg + 4], arg[iarg + 5], 100.0 * lognormal.kept());
+    diameters = lognormal;
+    return iarg + 6;
+  }
+  if (law == "poly") return parse_list(iarg, narg, arg);
+  diameters = apf::OneDiameter{positive(iarg + 1, arg, "diameter")};
+  return iarg + 2;
+}
+
+int FixInletFlow::parse_list(int iarg, int narg, char **arg)
+{
+  if (iarg + 4 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow diameter poly", error);
+  const std::string by = arg[iarg + 2];
+  if (by != "number" && by != "volume")
+    error->all(FLERR, iarg + 2, "{} diameter poly fractions must be by number or volume, got {}",
+               command, by);
+  const int n = utils::inumeric(FLERR, arg[iarg + 3], false, lmp);
+  if (n < 1 || n > (narg - iarg - 4) / 2)
+    error->all(FLERR, iarg + 3,
+               "{} diameter poly takes from 1 diameter on, each with its fraction, got {} and {} "
+               "further words",
+               command, n, narg - iarg - 4);
+  std::vector<double> d, fraction;
+  for (int k = 0; k < n; k++) {
+    d.push_back(positive(iarg + 4 + 2 * k, arg, "diameter"));
+    fraction.push_back(positive(iarg + 5 + 2 * k, arg, "fraction"));
+  }
+  diameters = apf::ListedDiameters::of(std::move(d), std::move(fraction), by == "volume");
+  return iarg + 4 + 2 * n;
+}
+
+double FixInletFlow::positive(int iarg, char **arg, const char *what)
+{
+  const double value = utils::numeric(FLERR, arg[iarg], false, lmp);
+  if (!(value > 0.0 && std::isfinite(value)))
+    error->all(FLERR, iarg, "{} {} must be > 0, got {}", command, what, arg[iarg]);
+  return value;
+}
+
+void FixInletFlow::check_order(int iarg, char **arg, double lo, double hi)
+{
+  if (!(lo < hi))
+    error->all(FLERR, iarg, "{} largest diameter must be > smallest {}, got {}", command,
+               arg[iarg - 1], arg[iarg]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixInletFlow::parse_outlet(int iarg, int narg, char **arg)
+{
+  if (iarg + 3 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow outlet", error);
+  Outlet outlet{};
+  outlet.dim = parse_axis(iarg + 1, arg, "outlet", outlet.sign);
+  outlet.position = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+  outlets.push_back(outlet);
+  return iarg + 3;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::check_required() const
+{
+  auto require = [this](bool given, const char *word) {
+    if (!given) error->all(FLERR, "{} requires keyword {}", command, word);
+  };
+  require(concentration > 0.0 || number > 0.0, "concentration or number");
+  if (concentration > 0.0 && number > 0.0)
+    error->all(FLERR, "{} takes keyword concentration or number, not both", command);
+  const double smallest = std::visit(
+      [](const auto &law) {
+        return law.smallest();
+      },
+      diameters);
+  require(smallest > 0.0, "diameter");
+  require(density > 0.0, "density");
+  require(type > 0, "type");
+  require(random != nullptr, "seed");
+}

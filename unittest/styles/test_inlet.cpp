@@ -1,0 +1,389 @@
+// fix inlet/flow: the flux that was asked for enters, nowhere on top of another particle, at the
+// fluid's own motion; and every number is accounted for, on any number of ranks and over a restart.
+
+#include "scenes.h"
+
+#include <algorithm>
+#include <array>
+
+namespace {
+
+// a box 20 x 10 x 10, closed along x, periodic across; particles that have entered move on
+std::string box(const std::string &across = "p p", const std::string &more = "")
+{
+  return "units lj\natom_style sphere\natom_modify map array\ncomm_modify vel yes\nboundary f " +
+      across + "\nregion box block 0 20 0 10 0 10\ncreate_box 1 box\n" +
+      "neighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\n"
+      "pair_style granular/adhesive\n"
+      "pair_coeff * * jkr 1e4 0.3 0.1 damping tsuji 0.5 sliding 0.3\n"
+      "fix move all nve/sphere\ntimestep 0.01\n" +
+      more;
+}
+const std::string fluid = " density 1 viscosity 1\n";
+const std::string uniform = "fix air all flow/field uniform 1 0 0" + fluid;
+const std::string particle = " diameter 0.5 density 2 type 1 seed 4711 ";
+
+// all particles of all ranks by ID; IDs have holes where particles have left
+struct Inside {
+  std::vector<double> tag, x, v, omega, radius;
+};
+Inside inside(Simulation &sim)
+{
+  const auto *atom = sim.lammps()->atom;
+  std::vector<double> mine;
+  for (int i = 0; i < atom->nlocal; i++) {
+    mine.push_back(static_cast<double>(atom->tag[i]));
+    for (double **a : {atom->x, atom->v, atom->omega}) mine.insert(mine.end(), a[i], a[i] + 3);
+    mine.push_back(atom->radius[i]);
+  }
+  int n = static_cast<int>(mine.size()), ranks;
+  MPI_Comm_size(sim.lammps()->world, &ranks);
+  std::vector<int> counts(ranks), starts(ranks, 0);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, sim.lammps()->world);
+  for (int r = 1; r < ranks; r++) starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<std::array<double, 11>> all((starts.back() + counts.back()) / 11);
+  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
+                 sim.lammps()->world);
+  std::sort(all.begin(), all.end());
+  Inside result;
+  for (const auto &row : all) {
+    result.tag.push_back(row[0]);
+    result.x.insert(result.x.end(), &row[1], &row[4]);
+    result.v.insert(result.v.end(), &row[4], &row[7]);
+    result.omega.insert(result.omega.end(), &row[7], &row[10]);
+    result.radius.push_back(row[10]);
+  }
+  return result;
+}
+
+double smallest_gap(Simulation &sim, const double *period)
+{
+  const auto all = inside(sim);
+  const auto &x = all.x;
+  const auto &radius = all.radius;
+  double smallest = 1e30;
+  for (size_t i = 0; i < radius.size(); i++)
+    for (size_t j = 0; j < i; j++) {
+      double d2 = 0.0;
+      for (int c = 0; c < 3; c++) {
+        double d = x[3 * i + c] - x[3 * j + c];
+        if (period[c] > 0.0) d -= period[c] * std::round(d / period[c]);
+        d2 += d * d;
+      }
+      smallest = std::min(smallest, std::sqrt(d2) - radius[i] - radius[j]);
+    }
+  return smallest;
+}
+const double periodic_yz[3] = {0.0, 10.0, 10.0};
+
+// sum of (observed - expected)^2 / expected over bins of equal expectation
+double chi_square(std::vector<double> u, int bins)
+{
+  std::vector<int> count(bins, 0);
+  for (double value : u) count[std::min(bins - 1, static_cast<int>(value * bins))]++;
+  const double expected = static_cast<double>(u.size()) / bins;
+  double sum = 0.0;
+  for (int n : count) sum += (n - expected) * (n - expected) / expected;
+  return sum;
+}
+
+// 19 degrees of freedom: outside of these with a chance of 1e-4 on either side
+constexpr double chi2_lo = 4.0, chi2_hi = 52.0;
+
+}    // namespace
+
+TEST(Inlet, flux_over_ten_thousand_steps)
+{
+  // c0 u A = 0.005 x (2/3 of 1.5) x 100; a thousandth of what entered is less than one particle
+  Simulation sim;
+  sim.run(box() + "timestep 0.05\nfix air all flow/field channel x y 0 10 1.5" + fluid +
+          "fix in all inlet/flow x 0 air concentration 0.005" + particle +
+          "outlet x 10\nfix drag all flow/force air drag stokes\nrun 10000\n");
+  const double size = pi / 6.0 * 0.125, flux = 0.005 * 1.0 * 100.0, time = 500.0;
+  EXPECT_NEAR(sim.value("f_in[6]"), flux, 1e-12);
+  EXPECT_NEAR(sim.value("f_in[8]"), flux, 1e-3 * flux);
+  EXPECT_NEAR(sim.value("f_in[1]"), flux * time / size, 1.0 + 1e-3 * flux * time / size);
+  EXPECT_NEAR(sim.value("f_in[4]"), size * sim.value("f_in[1]"), 1e-9 * flux * time);
+  EXPECT_NEAR(sim.value("f_in[3]"), 2.0 * sim.value("f_in[4]"), 1e-9 * flux * time);
+  EXPECT_GT(sim.value("f_in[9]"), 0.9 * sim.value("f_in[1]"));
+  EXPECT_EQ(sim.value("f_in[1]"), sim.value("f_in[9]") + sim.value("atoms"));
+}
+
+TEST(Inlet, nothing_overlaps_and_all_move_with_the_fluid)
+{
+  Simulation sim;
+  sim.run(box() + uniform + "fix in all inlet/flow x 0 air concentration 0.15" + particle +
+          "outlet x 15\nfix drag all flow/force air drag stokes torque yes\n"
+          "compute ke all ke\nthermo_style custom step c_ke\nrun 1200\n");
+  EXPECT_GT(sim.value("f_in[2]"), 100.0) << "it is dense enough to refuse places";
+  EXPECT_GE(smallest_gap(sim, periodic_yz), -1e-12);
+  EXPECT_NEAR(smallest_gap(sim, periodic_yz), 0.0, 0.05);
+  // all particles have the velocity of the fluid: no overlap has set energy free
+  const double mass = 2.0 * pi / 6.0 * 0.125 * sim.value("atoms");
+  EXPECT_NEAR(sim.value("c_ke") / (0.5 * mass), 1.0, 1e-6);
+  EXPECT_NEAR(sim.value("f_in[8]"), 15.0, 0.02) << "refused particles enter later";
+  EXPECT_LT(sim.value("f_in[5]"), 30.0);
+}
+
+TEST(Inlet, keeps_a_gap_to_others_and_walls)
+{
+  Simulation sim;
+  sim.run(box("f p") + "fix wall all wall/levelset plane y 0 10 jkr 1e4 0.3 0.1\n" + uniform +
+          "fix in all inlet/flow x 0 air concentration 0.05 gap 0.1" + particle + "\nrun 600\n");
+  ASSERT_GT(sim.value("atoms"), 100.0);
+  EXPECT_GE(smallest_gap(sim, periodic_yz), 0.1 - 1e-12);
+  EXPECT_LT(smallest_gap(sim, periodic_yz), 0.2);
+  double lowest = 1e30, highest = -1e30;
+  const auto x = inside(sim).x;
+  for (size_t i = 0; i < x.size() / 3; i++) {
+    lowest = std::min(lowest, x[3 * i + 1]);
+    highest = std::max(highest, x[3 * i + 1]);
+  }
+  EXPECT_GE(lowest, 0.35);
+  EXPECT_LT(lowest, 0.6);
+  EXPECT_LE(highest, 9.65);
+  EXPECT_GT(highest, 9.4);
+}
+
+TEST(Inlet, places_follow_the_flux)
+{
+  // the flux below y is that of the parabola, s^2 (3 - 2 s); particles small enough to feel no edge
+  Simulation sim;
+  sim.run(box() + "fix air all flow/field channel x y 0 10 1.5" + fluid +
+          "fix in all inlet/flow x 0 air number 20000 diameter 1e-4 density 2 type 1 seed 7\n"
+          "pair_coeff * * jkr 1e4 0.3 0\nrun 1\n");
+  ASSERT_EQ(sim.value("f_in[1]"), 20000.0);
+  const auto x = inside(sim).x;
+  const auto v = inside(sim).v;
+  std::vector<double> along_y, along_z, way;
+  double spin = 0.0;
+  const auto omega = inside(sim).omega;
+  for (size_t i = 0; i < x.size() / 3; i++) {
+    const double s = x[3 * i + 1] / 10.0, u = 6.0 * s * (1.0 - s);
+    along_y.push_back(s * s * (3.0 - 2.0 * s));
+    along_z.push_back(x[3 * i + 2] / 10.0);
+    way.push_back(x[3 * i] / (0.01 * u));
+    EXPECT_NEAR(v[3 * i], u, 1e-12);
+    spin = std::max(spin, std::fabs(omega[3 * i + 2] + 0.5 * 0.6 * (1.0 - 2.0 * s)));
+  }
+  EXPECT_LT(spin, 1e-12) << "half the vorticity";
+  for (const auto &u : {along_y, along_z, way}) {
+    EXPECT_GT(chi_square(u, 20), chi2_lo);
+    EXPECT_LT(chi_square(u, 20), chi2_hi);
+  }
+}
+
+TEST(Inlet, diameters_follow_their_law)
+{
+  struct Case {
+    std::string law;
+    double mean_volume, mean;    // <d^3>, <d>
+  };
+  // lognormal: <d^k> = median^k exp(k^2 s^2 / 2); poly by volume: equal volumes of 0.1 and 0.2
+  const double s2 = std::pow(std::log(1.3), 2);
+  const std::vector<Case> cases = {
+      {"uniform 0.1 0.3", 0.01, 0.2},
+      {"lognormal 0.1 1.3 0.01 1.0", 1e-3 * std::exp(4.5 * s2), 0.1 * std::exp(0.5 * s2)},
+      {"poly volume 2 0.1 0.5 0.2 0.5", (8.0 * 0.001 + 0.008) / 9.0, (8.0 * 0.1 + 0.2) / 9.0}};
+  for (const auto &one : cases) {
+    Simulation sim;
+    sim.run(box() + uniform + "fix in all inlet/flow x 0 air number 5000 every 1 diameter " +
+            one.law + " density 2 type 1 seed 12\ntimestep 5\nrun 1\n");
+    const auto radius = inside(sim).radius;
+    ASSERT_EQ(radius.size(), 5000u);
+    double mean = 0.0, volume = 0.0;
+    for (double r : radius) {
+      mean += 2.0 * r / 5000.0;
+      volume += 8.0 * r * r * r / 5000.0;
+    }
+    EXPECT_NEAR(mean / one.mean, 1.0, 0.02) << one.law;
+    EXPECT_NEAR(volume / one.mean_volume, 1.0, 0.06) << one.law;
+    EXPECT_NEAR(sim.value("f_in[4]"), pi / 6.0 * 5000.0 * volume, 1e-9) << one.law;
+  }
+}
+
+TEST(Inlet, enters_through_any_plane_in_both_directions)
+{
+  struct Case {
+    std::string plane, flow;
+    int axis;
+    double at, v;
+  };
+  const std::vector<Case> cases = {{"x 1", "2 0 0", 0, 1, 2}, {"-x 19", "-2 0 0", 0, 19, -2},
+                                   {"y 1", "0 2 0", 1, 1, 2}, {"-y 9", "0 -2 0", 1, 9, -2},
+                                   {"z 1", "0 0 2", 2, 1, 2}, {"-z 9", "0 0 -2", 2, 9, -2}};
+  for (const auto &one : cases) {
+    Simulation sim;
+    sim.run(box() + "fix air all flow/field uniform " + one.flow + fluid +
+            "fix in all inlet/flow " + one.plane + " air number 50" + particle + "\nrun 1\n");
+    const auto x = inside(sim).x;
+    ASSERT_EQ(x.size(), 150u) << one.plane;
+    for (size_t i = 0; i < 50; i++) {
+      const double way = (x[3 * i + one.axis] - one.at) * (one.v > 0.0 ? 1.0 : -1.0);
+      EXPECT_GE(way, 0.0) << one.plane;
+      EXPECT_LE(way, 0.02 + 1e-12) << one.plane;
+    }
+  }
+}
+
+TEST(Inlet, in_the_plane_concentration_is_by_area)
+{
+  Simulation sim;
+  sim.run("units lj\ndimension 2\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
+          "boundary f f p\nregion box block 0 20 0 10 -0.5 0.5\ncreate_box 1 box\n"
+          "neighbor 0.3 bin\npair_style granular/adhesive\npair_coeff * * jkr 1e4 0.3 0.1\n"
+          "fix move all nve/sphere\nfix flat all enforce2d\ntimestep 0.02\n" +
+          uniform + "fix in all inlet/flow x 0 air concentration 0.02" + particle +
+          "window 2 7\nrun 900\n");
+  EXPECT_NEAR(sim.value("f_in[6]"), 0.02 * 5.0, 1e-12);
+  EXPECT_NEAR(sim.value("f_in[1]") * pi / 4.0 * 0.25, 0.1 * 18.0, 0.2);
+  const auto x = inside(sim).x;
+  for (size_t i = 0; i < x.size() / 3; i++) {
+    EXPECT_GE(x[3 * i + 1], 2.25);
+    EXPECT_LE(x[3 * i + 1], 6.75);
+    EXPECT_EQ(x[3 * i + 2], 0.0);
+  }
+  EXPECT_GE(smallest_gap(sim, periodic_yz), -1e-12);
+}
+
+TEST(Inlet, what_entered_is_inside_or_has_left)
+{
+  Simulation sim;
+  sim.run(box() + "fix air all flow/field uniform 10 0 0" + fluid +
+          "fix in all inlet/flow x 0 air concentration 0.03" + particle + "outlet x 12\n");
+  double left = 0.0;
+  for (int n = 0; n < 8; n++) {
+    sim.run("run 40 pre no post no\n");
+    EXPECT_EQ(sim.value("f_in[1]"), sim.value("f_in[9]") + sim.value("atoms"));
+    EXPECT_NEAR(sim.value("f_in[10]"), sim.value("f_in[9]") * 2.0 * pi / 6.0 * 0.125, 1e-9);
+    left = sim.value("f_in[9]");
+    if (n == 0) sim.run("run 0\n");
+  }
+  EXPECT_GT(left, 100.0);
+}
+
+TEST(Inlet, works_with_sub_stepped_contacts)
+{
+  Simulation sim;
+  std::string commands = box();
+  commands.replace(commands.find("nve/sphere"), 10, "nve/sphere/mts collision auto");
+  sim.run(commands + "timestep 0.02\n" + uniform +
+          "fix in all inlet/flow x 0 air concentration 0.1" + particle +
+          "\nfix drag all flow/force air drag stokes\nrun 500\n");
+  EXPECT_GT(sim.value("atoms"), 1000.0);
+  EXPECT_GE(smallest_gap(sim, periodic_yz), -1e-12);
+  EXPECT_EQ(sim.value("f_move[5]"), 0.0) << "no contact was found late";
+}
+
+namespace {
+const std::string shared_scene = box("p p", "") + "fix air all flow/field channel x y 0 10 3" +
+    fluid +
+    "fix in all inlet/flow x 0 air concentration 0.05 diameter lognormal 0.3 1.3 0.1 0.8 density 2 "
+    "type 1 seed 99 outlet x 17\nfix drag all flow/force air drag stokes torque yes\n";
+}
+
+TEST(Inlet, goes_on_from_a_restart_as_if_nothing_had_been)
+{
+  const std::string file = scratch_file("restart");
+  std::vector<double> x, radius;
+  double counts[10];
+  {
+    Simulation sim;
+    sim.run(shared_scene + "run 300\nwrite_restart " + file + "\nrun 400\n");
+    x = inside(sim).x;
+    radius = inside(sim).radius;
+    for (int n = 0; n < 10; n++) counts[n] = sim.value("f_in[" + std::to_string(n + 1) + "]");
+  }
+  Simulation sim;
+  std::string again = shared_scene.substr(shared_scene.find("neighbor 0.3"));
+  sim.run("read_restart " + file + "\ncomm_modify vel yes\n" + again + "run 400\n");
+  std::filesystem::remove(file);
+  ASSERT_GT(x.size(), 300u);
+  EXPECT_EQ(inside(sim).radius, radius);
+  EXPECT_LT(difference(inside(sim).x, x), 1e-12);
+  for (int n = 0; n < 10; n++)
+    EXPECT_NEAR(sim.value("f_in[" + std::to_string(n + 1) + "]"), counts[n],
+                1e-12 * std::fabs(counts[n]))
+        << n;
+  EXPECT_GT(counts[8], 0.0);
+}
+
+TEST(RanksInlet, the_same_particles_enter_on_any_number_of_ranks)
+{
+  const std::string scene = shared_scene + "fix even all balance 50 1.0 shift xy 5 1.0\nrun 650\n";
+  Inside alone;
+  double counts[10];
+  {
+    Simulation sim({}, MPI_COMM_SELF);
+    sim.run(scene);
+    for (int n = 0; n < 10; n++) counts[n] = sim.value("f_in[" + std::to_string(n + 1) + "]");
+    alone = inside(sim);
+  }
+  Simulation sim;
+  sim.run(scene);
+  const auto all = inside(sim);
+  ASSERT_GT(all.tag.size(), 800u);
+  EXPECT_EQ(all.tag, alone.tag);
+  EXPECT_EQ(all.radius, alone.radius);
+  EXPECT_LT(difference(all.x, alone.x), 1e-12);
+  EXPECT_LT(difference(all.omega, alone.omega), 1e-12);
+  for (int n = 0; n < 10; n++)
+    EXPECT_EQ(sim.value("f_in[" + std::to_string(n + 1) + "]"), counts[n]) << n;
+  EXPECT_GT(counts[8], 0.0) << "some have left";
+}
+
+TEST(RanksInlet, dense_inlet_has_no_overlap_across_ranks)
+{
+  Simulation sim;
+  sim.run(box() + uniform + "fix in all inlet/flow x 0 air concentration 0.12" + particle +
+          "outlet x 15\nrun 900\n");
+  EXPECT_GE(smallest_gap(sim, periodic_yz), -1e-12);
+  EXPECT_GT(sim.value("f_in[2]"), 50.0);
+  EXPECT_EQ(sim.value("f_in[1]"), sim.value("f_in[9]") + sim.value("atoms"));
+}
+
+TEST(InletErrors, name_what_is_wrong)
+{
+  struct Row {
+    std::string words, part;
+  };
+  const std::string good = " concentration 0.01 diameter 0.5 density 2 type 1 seed 3";
+  const std::vector<Row> rows = {
+      {"", "missing argument"},
+      {"w 0 air" + good, "plane must be x, -x, y, -y, z or -z, got w"},
+      {"x 0 air diameter 0.5 density 2 type 1 seed 3", "concentration or number"},
+      {"x 0 air number 3" + good, "not both"},
+      {"x 0 air concentration 0.7", "concentration must be in (0, 0.64]"},
+      {"x 0 air concentration -1", "got -1"},
+      {"x 0 air number 0", "number must be > 0, got 0"},
+      {"x 0 air every 0", "every must be >= 1, got 0"},
+      {"x 0 air diameter 0", "diameter must be > 0, got 0"},
+      {"x 0 air diameter uniform 0.2 0.1", "must be > smallest 0.2, got 0.1"},
+      {"x 0 air diameter lognormal 0.2 0.9 0.1 0.3", "must be > 1, got 0.9"},
+      {"x 0 air diameter lognormal 0.2 1.1 2 3", "at least 1 %"},
+      {"x 0 air diameter poly mass 1 0.1 1", "by number or volume, got mass"},
+      {"x 0 air diameter poly number 2 0.1 1", "Fix inlet/flow diameter poly takes"},
+      {"x 0 air density 0", "density must be > 0, got 0"},
+      {"x 0 air type 2", "type must be from 1 to 1, got 2"},
+      {"x 0 air seed 0", "seed must be >= 1, got 0"},
+      {"x 0 air gap -1", "gap must be >= 0, got -1"},
+      {"x 0 air attempts 0", "attempts must be >= 1, got 0"},
+      {"x 0 air window 3 2 NULL NULL", "must be > lower bound 3, got 2"},
+      {"x 0 air outlet q 3", "outlet must be"},
+      {"x 0 air speed 3", "keyword must be"},
+      {"x 0 wind" + good + "\nrun 0", "fix wind does not exist"},
+      {"x 0 move" + good + "\nrun 0", "must be of style flow/field, got nve/sphere"},
+      {"x 30 air" + good + "\nrun 0", "must lie within the box"},
+      {"x 20 air" + good + "\nrun 0", "would leave the box"},
+      {"-x 20 air" + good + "\nrun 0", "does not enter anywhere"},
+      {"x 0 air window 0 0.4 NULL NULL" + good + "\nrun 0", "smaller than the window"},
+      {"x 0 air window -3 3 NULL NULL" + good + "\nrun 0", "must lie within the box"},
+  };
+  for (const auto &row : rows) {
+    Simulation sim;
+    sim.run(box() + uniform);
+    const auto text = sim.error_of("fix in all inlet/flow " + row.words);
+    EXPECT_NE(text.find(row.part), std::string::npos)
+        << "'" << row.part << "' expected, got '" << text << "' from: " << row.words;
+  }
+}
