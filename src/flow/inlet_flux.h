@@ -2,10 +2,10 @@
 //
 //   flux = integral of max(u_n, 0) dA,    density of points = max(u_n, 0) / flux
 //
-// u_n is the velocity along the direction of entry. The rectangle is divided in cells; Simpson's rule
-// over their corners, edges and centres gives the flux of each, exact for a velocity that is cubic in
-// a cell. A point is drawn from a cell in proportion to its flux, then within it by rejection, with
-// the velocity at the point itself.
+// u_n is the velocity along the direction of entry. The rectangle is divided in cells; Simpson's
+// rule over their corners, edges and centres gives the flux of each, exact for a velocity that is
+// cubic in a cell. A point is drawn from a cell in proportion to its flux, then within it by
+// rejection, with the velocity at the point itself.
 
 #ifndef APF_INLET_FLUX_H
 #define APF_INLET_FLUX_H
