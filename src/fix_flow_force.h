@@ -11,9 +11,11 @@ FixStyle(flow/force,FixFlowForce);
 
 #include "fix.h"
 
-#include "contact/vector.h"
+#include "flow/fluid_forces.h"
 #include "timestep/sub_step.h"
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,44 +30,72 @@ class FixFlowForce : public Fix {
   void setup(int) override;
   void post_force(int) override;
   void post_force_respa(int, int, int) override;
+  void post_run() override;
   double compute_vector(int) override;
   double memory_usage() override;
 
   // Takes the last drag and torque on local atom i out of its acceleration, and puts the rates and
   // velocities of relaxation there instead.
   void relax(int i, apf::Slow &) const;
+  // part of any force on local atom i that moves it; the rest moves fluid with it (added mass)
+  double share(int i) const;
 
  private:
-  enum class Drag { NONE, STOKES, SCHILLER };
-
   std::string field_id;
-  class FixFlowField *field;
-  Drag drag;
-  bool torque;
-  apf::Vec3 gravity;    // acceleration, without buoyancy               [length/time^2]
+  class FixFlowField *field = nullptr;
+  apf::FluidModel model;
+  double concentration = -1.0;    // volume fraction of particles; < 0: none given
+  std::vector<int> columns;       // forces of the per-atom array after drag and torque
 
-  int ilevel_respa;
+  int ilevel_respa = 0;
   const class FixNVESphereMTS *sub_stepper = nullptr;
-  double share;    // part of a step for which the forces act: half of it at setup
-  int nmax;
-  std::vector<apf::Vec3> velocity, vorticity;    // of the fluid at the particles
-  struct Relaxation {                            // what relax() adds
+  double part = 1.0;    // of a step for which the forces act: half of it at setup
+  bool warned = false;
+  int nmax = 0;
+
+  // a block of particles on its way through the forces
+  struct Block {
+    int atom[apf::block_width];    // their local indices
+    apf::PointBlock points;
+    apf::FluidBlock fluid;
+    apf::ForceBlock forces;
+  };
+  std::unique_ptr<Block> block;
+  apf::FluidForces fluid_forces;
+
+  struct Relaxation {    // what relax() adds
     apf::Vec3 a{}, alpha{};
-    double rate = 0.0, spin_rate = 0.0;
+    double rate = 0.0, spin_rate = 0.0, share = 1.0;
   };
   std::vector<Relaxation> relaxations;    // of local atoms, where contacts are sub-stepped
-  double total[6], total_all[6];          // drag 3, gravity 3, over the group
-  bool summed;
 
+  // sums over the group: of each force, and of all that was added to f
+  static constexpr int n_sums = 3 * (apf::n_fluid_forces + 1);
+  double total[n_sums], total_all[n_sums];
+  bool summed = false;
+
+  // fix_flow_force_input.cpp
+  void parse(int narg, char **arg);
   int parse_drag(int iarg, int narg, char **arg);
-  int parse_torque(int iarg, int narg, char **arg);
+  int parse_switch(int iarg, int narg, char **arg);
+  int parse_lift(int iarg, int narg, char **arg);
   int parse_gravity(int iarg, int narg, char **arg);
+  int parse_brownian(int iarg, int narg, char **arg);
+  int parse_cunningham(int iarg, int narg, char **arg);
+  int parse_concentration(int iarg, int narg, char **arg);
   class FixFlowField *find_field(int iarg);
   void check_particles();
+  void check_other_fixes();
+  bool shares_atoms(int bit) const;
+  void warn_of_ranges();
+
   double step() const;
-  void gather();
-  template <class Law, bool SPIN> void add_forces();
-  void tally(int i, const apf::Vec3 &force);
+  void for_blocks(const std::function<void()> &act);
+  int gather(int first, double whole, double sub);
+  void scatter();
+  void add_up();
+  void keep_relaxation();
+  void tally();
 };
 
 }    // namespace LAMMPS_NS

@@ -492,14 +492,22 @@ apf::Slow FixNVESphereMTS::slow_of(int i, const double *contact_force,
   apf::Slow slow;
   if (atom->mask[i] & freeze_group_bit || !(atom->mask[i] & groupbit)) return slow;
   const double r = atom->radius[i], m = atom->rmass[i];
-  slow.inv_mass = 1.0 / m;
+  slow.inv_mass = contact_share(i) / m;
   slow.inv_inertia = 2.5 / (m * r * r);
   for (int c = 0; c < 3; c++) {
-    slow.a[c] = slow.inv_mass * (atom->f[i][c] - contact_force[c]);
+    slow.a[c] = atom->f[i][c] / m - slow.inv_mass * contact_force[c];
     slow.alpha[c] = slow.inv_inertia * (atom->torque[i][c] - contact_torque[c]);
   }
   for (const auto *fluid : fluids) fluid->relax(i, slow);
   return slow;
+}
+
+// Part of a contact's force that moves atom i and stands in f; the rest moves fluid (added mass).
+double FixNVESphereMTS::contact_share(int i) const
+{
+  double share = 1.0;
+  for (const auto *fluid : fluids) share *= fluid->share(i);
+  return share;
 }
 
 // the kick of all forces as they stand in f and torque
@@ -535,10 +543,10 @@ void FixNVESphereMTS::drift_free()
 void FixNVESphereMTS::kick_free(int i, const double *load, double load_time)
 {
   const double r = atom->radius[i], m = atom->rmass[i], time = 0.5 * update->dt;
-  const double angular = 2.5 / (m * r * r);
+  const double angular = 2.5 / (m * r * r), share = contact_share(i);
   for (int c = 0; c < 3; c++) {
     const double f = atom->f[i][c], torque = atom->torque[i][c];
-    atom->v[i][c] += (time * (f - load[c]) + load_time * load[c]) / m;
+    atom->v[i][c] += (time * f - (time - load_time) * share * load[c]) / m;
     atom->omega[i][c] += angular * (time * (torque - load[3 + c]) + load_time * load[3 + c]);
   }
 }

@@ -114,6 +114,7 @@ class FixNVESphereMTS : public Fix {
   std::vector<double> surface_accelerations();
   void choose_steps();
   apf::Slow slow_of(int i, const double *contact_force, const double *contact_torque) const;
+  double contact_share(int i) const;
   void kick_atom(int i, double time);
   void kick_free(int i, const double *load, double load_time);
   void gather_loads();

@@ -1,5 +1,6 @@
-// The builds of the contact kernel and of the grid's sampler.
+// The builds of the contact kernel, of the grid's sampler and of the forces of the fluid.
 
+#include "../flow/fluid_forces.h"
 #include "../flow/grid_flow.h"
 #include "contact_kernel.h"
 #include "instruction_set.h"
@@ -10,6 +11,7 @@ namespace apf {
   namespace isa {                                                                 \
     ContactKernel contact_kernel(const KernelChoice &choice);                     \
     bool sample_grid(const GridView &, const PointBlock &, Detail, FluidBlock &); \
+    void fluid_forces(const FluidModel &, const FluidBlock &, ForceBlock &);      \
   }
 APF_DECLARE(baseline)
 #ifdef APF_X86
@@ -51,6 +53,24 @@ GridSampler grid_sampler()
 {
   static const GridSamplerBuild &build = chosen(grid_sampler_builds());
   return build.sampler;
+}
+
+const std::vector<FluidForcesBuild> &fluid_forces_builds()
+{
+  static const auto builds = runnable<FluidForcesBuild>({
+      {"baseline", baseline::fluid_forces},
+#ifdef APF_X86
+      {"avx2", avx2::fluid_forces},
+      {"avx512", avx512::fluid_forces},
+#endif
+  });
+  return builds;
+}
+
+FluidForces fluid_forces()
+{
+  static const FluidForcesBuild &build = chosen(fluid_forces_builds());
+  return build.forces;
 }
 
 }    // namespace apf

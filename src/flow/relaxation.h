@@ -9,17 +9,15 @@
 #ifndef APF_RELAXATION_H
 #define APF_RELAXATION_H
 
-#include "../contact/vector.h"
-
-#include <cmath>
+#include "elementary.h"
 
 namespace apf {
 
 // phi(z), mean of exp(-t) over 0 < t < z; z >= 0
-inline double mean_decay(double z)
+template <class Real> APF_INLINE Real mean_decay(const Real &z)
 {
-  if (z < 1.0e-3) return 1.0 - z * (1.0 / 2.0 - z * (1.0 / 6.0 - z / 24.0));    // to 1e-14
-  return -std::expm1(-z) / z;
+  const Real positive = larger(z, 1.0e-290);
+  return -exponential_less_one(-positive) / positive;
 }
 
 // The same of t exp(-z (1 - t)) over 0 < t < 1: what is left of a force that grows through a step
@@ -30,9 +28,21 @@ inline double ramp_decay(double z)
 }
 
 // Mean resistance over the step, phi = mean_decay(h k/m); positive along -slip.
-inline Vec3 mean_resistance(double k, double phi, const Vec3 &slip, const Vec3 &other)
+template <class Real>
+APF_INLINE Vector3<Real> mean_resistance(const Real &k, const Real &phi, const Vector3<Real> &slip,
+                                         const Vector3<Real> &other)
 {
   return -((phi * k) * slip) - (1.0 - phi) * other;
+}
+
+// The slip in mid-step. Where resistance or other forces depend on the slip they are those of this
+// one, which makes the step second order; at a fixed point it is the slip itself.
+template <class Real>
+APF_INLINE Vector3<Real> mid_slip(const Real &step_per_mass, const Real &k,
+                                  const Vector3<Real> &slip, const Vector3<Real> &other)
+{
+  const Real half = 0.5 * step_per_mass;
+  return slip + (half * mean_decay(half * k)) * (other - k * slip);
 }
 
 }    // namespace apf

@@ -6,13 +6,17 @@
 #ifndef APF_SCHILLER_NAUMANN_H
 #define APF_SCHILLER_NAUMANN_H
 
-#include <cmath>
+#include "elementary.h"
 
 namespace apf {
 
 struct SchillerNaumannDrag {
   static constexpr bool linear = false;
-  static double factor(double reynolds) { return 1.0 + 0.15 * std::pow(reynolds, 0.687); }
+  // second argument: volume fraction of particles, which this law does not know
+  template <class Real> static APF_INLINE Real factor(const Real &reynolds, const Real &)
+  {
+    return 1.0 + 0.15 * exponential(0.687 * logarithm(larger(reynolds, 1.0e-200)));
+  }
 };
 
 }    // namespace apf

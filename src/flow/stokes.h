@@ -12,49 +12,55 @@
 #ifndef APF_STOKES_H
 #define APF_STOKES_H
 
+#include "../contact/vector.h"
+
 namespace apf {
 
 namespace sphere {
   constexpr double pi = 3.14159265358979323846;
-  inline double volume(double diameter)
+  template <class Real> APF_INLINE Real volume(const Real &diameter)
   {
     return pi / 6.0 * diameter * diameter * diameter;
   }
-  inline double moment_of_inertia(double mass, double diameter)
+  template <class Real> APF_INLINE Real moment_of_inertia(const Real &mass, const Real &diameter)
   {
     return 0.1 * mass * diameter * diameter;
   }
 }    // namespace sphere
 
 // force per slip velocity                                           [mass/time]
-inline double stokes_resistance(double viscosity, double diameter)
+template <class Real> APF_INLINE Real stokes_resistance(double viscosity, const Real &diameter)
 {
   return 3.0 * sphere::pi * viscosity * diameter;
 }
 
 // torque per slip angular velocity                                  [mass length^2/time]
-inline double stokes_spin_resistance(double viscosity, double diameter)
+template <class Real> APF_INLINE Real stokes_spin_resistance(double viscosity, const Real &diameter)
 {
   return sphere::pi * viscosity * diameter * diameter * diameter;
 }
 
-// mass whose weight is the weight in the fluid; negative if the particle rises     [mass]
-inline double buoyant_mass(double mass, double diameter, double fluid_density)
+// mass of the fluid that a sphere displaces, chi m in the report    [mass]
+template <class Real> APF_INLINE Real displaced_mass(const Real &diameter, double fluid_density)
 {
-  return mass - fluid_density * sphere::volume(diameter);
+  return fluid_density * sphere::volume(diameter);
 }
 
 // Reynolds number of the particle, |v - u| d rho_f/mu
-inline double particle_reynolds(double slip, double diameter, double fluid_density,
-                                double viscosity)
+template <class Real>
+APF_INLINE Real particle_reynolds(const Real &slip, const Real &diameter, double fluid_density,
+                                  double viscosity)
 {
-  return slip * diameter * fluid_density / viscosity;
+  return slip * diameter * (fluid_density / viscosity);
 }
 
-// drag law with f = 1; linear, so that its relaxation time does not depend on the slip
+// drag law with f = 1; linear: its relaxation time does not depend on the slip
 struct StokesDrag {
   static constexpr bool linear = true;
-  static double factor(double) { return 1.0; }
+  template <class Real> static APF_INLINE Real factor(const Real &, const Real &)
+  {
+    return Real(1.0);
+  }
 };
 
 }    // namespace apf

@@ -1,0 +1,281 @@
+// Keywords of fix flow/force, and what it checks before a run.
+
+#include "fix_flow_force.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_flow_field.h"
+#include "force.h"
+#include "math_const.h"
+#include "modify.h"
+#include "update.h"
+
+#include "flow/di_felice.h"
+
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowForce::parse(int narg, char **arg)
+{
+  const struct {
+    const char *word;
+    int nvalues;
+    int (FixFlowForce::*parse)(int, int, char **);
+  } keywords[] = {{"drag", 1, &FixFlowForce::parse_drag},
+                  {"torque", 1, &FixFlowForce::parse_switch},
+                  {"gravity", 3, &FixFlowForce::parse_gravity},
+                  {"lift", 1, &FixFlowForce::parse_lift},
+                  {"magnus", 1, &FixFlowForce::parse_switch},
+                  {"added_mass", 1, &FixFlowForce::parse_switch},
+                  {"pressure", 1, &FixFlowForce::parse_switch},
+                  {"brownian", 2, &FixFlowForce::parse_brownian},
+                  {"cunningham", 1, &FixFlowForce::parse_cunningham},
+                  {"concentration", 1, &FixFlowForce::parse_concentration}};
+  int iarg = 4;
+  while (iarg < narg) {
+    const std::string word = arg[iarg];
+    int next = 0;
+    for (const auto &keyword : keywords) {
+      if (word != keyword.word) continue;
+      if (iarg + keyword.nvalues >= narg)
+        utils::missing_cmd_args(FLERR, "fix flow/force " + word, error);
+      next = (this->*keyword.parse)(iarg, narg, arg);
+    }
+    if (word == "feedback")
+      error->all(FLERR, iarg, "Fix flow/force keyword {} is not available in this version of APF",
+                 word);
+    if (!next)
+      error->all(FLERR, iarg,
+                 "Fix flow/force keyword must be drag, torque, gravity, lift, magnus, added_mass, "
+                 "pressure, brownian, cunningham or concentration, got {}",
+                 word);
+    iarg = next;
+  }
+  if (model.drag == apf::FluidModel::NONE)
+    error->all(FLERR, "Fix flow/force requires keyword drag");
+  if (model.hindered() && concentration < 0.0)
+    error->all(FLERR, "Fix flow/force drag difelice requires keyword concentration");
+  if (!model.hindered() && concentration >= 0.0)
+    error->all(FLERR, "Fix flow/force keyword concentration goes with drag difelice only");
+}
+
+/* ----------------------------------------------------------------------
+   parse a keyword at iarg, which has its values; return index of the next one
+------------------------------------------------------------------------- */
+
+int FixFlowForce::parse_drag(int iarg, int narg, char **arg)
+{
+  const std::string law = arg[iarg + 1];
+  if (law == "stokes")
+    model.drag = apf::FluidModel::STOKES;
+  else if (law == "schiller")
+    model.drag = apf::FluidModel::SCHILLER;
+  else if (law == "difelice") {
+    const bool superficial = iarg + 2 < narg && strcmp(arg[iarg + 2], "superficial") == 0;
+    model.drag = superficial ? apf::FluidModel::DI_FELICE_SUPERFICIAL : apf::FluidModel::DI_FELICE;
+    return iarg + (superficial ? 3 : 2);
+  } else
+    error->all(FLERR, iarg + 1, "Fix flow/force drag must be stokes, schiller or difelice, got {}",
+               law);
+  return iarg + 2;
+}
+
+int FixFlowForce::parse_switch(int iarg, int /*narg*/, char **arg)
+{
+  const std::string word = arg[iarg], value = arg[iarg + 1];
+  if (value != "yes" && value != "no")
+    error->all(FLERR, iarg + 1, "Fix flow/force {} must be yes or no, got {}", word, value);
+  bool &which = word == "torque" ? model.torque
+      : word == "magnus"         ? model.magnus
+      : word == "added_mass"     ? model.added_mass
+                                 : model.pressure;
+  which = value == "yes";
+  return iarg + 2;
+}
+
+int FixFlowForce::parse_lift(int iarg, int /*narg*/, char **arg)
+{
+  if (strcmp(arg[iarg + 1], "saffman") != 0)
+    error->all(FLERR, iarg + 1, "Fix flow/force lift must be saffman, got {}", arg[iarg + 1]);
+  model.lift = true;
+  return iarg + 2;
+}
+
+int FixFlowForce::parse_gravity(int iarg, int /*narg*/, char **arg)
+{
+  model.gravity.x = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  model.gravity.y = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+  model.gravity.z = utils::numeric(FLERR, arg[iarg + 3], false, lmp);
+  if (domain->dimension == 2 && model.gravity.z != 0.0)
+    error->all(FLERR, iarg + 3,
+               "Fix flow/force gravity along z must be 0 in a 2d simulation, got {}",
+               arg[iarg + 3]);
+  model.weight = true;
+  return iarg + 4;
+}
+
+int FixFlowForce::parse_brownian(int iarg, int /*narg*/, char **arg)
+{
+  const double temperature = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  if (!(temperature >= 0.0))
+    error->all(FLERR, iarg + 1, "Fix flow/force brownian temperature must be >= 0, got {}",
+               arg[iarg + 1]);
+  const int seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+  if (seed <= 0)
+    error->all(FLERR, iarg + 2, "Fix flow/force brownian seed must be > 0, got {}", arg[iarg + 2]);
+  if (!atom->tag_enable) error->all(FLERR, iarg, "Fix flow/force brownian requires atom IDs");
+  model.brownian = true;
+  model.kT = force->boltz * temperature;
+  model.seed = static_cast<std::uint32_t>(seed);
+  return iarg + 3;
+}
+
+int FixFlowForce::parse_cunningham(int iarg, int /*narg*/, char **arg)
+{
+  model.mean_free_path = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  if (!(model.mean_free_path > 0.0))
+    error->all(FLERR, iarg + 1, "Fix flow/force cunningham mean free path must be > 0, got {}",
+               arg[iarg + 1]);
+  return iarg + 2;
+}
+
+int FixFlowForce::parse_concentration(int iarg, int /*narg*/, char **arg)
+{
+  if (!utils::is_double(arg[iarg + 1]))
+    error->all(FLERR, iarg + 1,
+               "Fix flow/force concentration must be a number, since fix flow/concentration is not "
+               "available in this version of APF, got {}",
+               arg[iarg + 1]);
+  concentration = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  if (!(concentration >= 0.0 && concentration <= apf::max_concentration))
+    error->all(FLERR, iarg + 1, "Fix flow/force concentration must be in [0, {}], got {}",
+               apf::max_concentration, arg[iarg + 1]);
+  return iarg + 2;
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixFlowField *FixFlowForce::find_field(int iarg)
+{
+  auto *fix = modify->get_fix_by_id(field_id);
+  if (!fix) error->all(FLERR, iarg, "Fix flow/force field fix {} does not exist", field_id);
+  auto *result = dynamic_cast<FixFlowField *>(fix);
+  if (!result)
+    error->all(FLERR, iarg, "Fix flow/force field fix {} must be of style flow/field, got {}",
+               field_id, fix->style);
+  return result;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowForce::check_particles()
+{
+  const double *radius = atom->radius;
+  const int *mask = atom->mask;
+  int points = 0;
+  double densest = 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double r = radius[i];
+    if (!(r > 0.0)) points++;
+    if (r > 0.0)
+      densest = MAX(densest, atom->rmass[i] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r));
+  }
+  int points_all;
+  MPI_Allreduce(&points, &points_all, 1, MPI_INT, MPI_SUM, world);
+  if (points_all)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix flow/force requires particles of radius > 0, got {} of radius 0", points_all);
+
+  // the mass of a sphere whose diameter was set after its density is that of the old diameter
+  double densest_all;
+  MPI_Allreduce(&densest, &densest_all, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (densest_all > 1.0e5 * field->density && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Fix flow/force {}: particles have a density of up to {:.3g}, {:.3g} times that of "
+        "the fluid; set diameter before density, as in: set group all diameter D density "
+        "RHO",
+        id, densest_all, densest_all / field->density);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixFlowForce::shares_atoms(int bit) const
+{
+  int mine = 0, all;
+  for (int i = 0; i < atom->nlocal; i++) mine |= atom->mask[i] & groupbit && atom->mask[i] & bit;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
+  return all;
+}
+
+void FixFlowForce::check_other_fixes()
+{
+  if (model.weight && norm2(model.gravity) > 0.0)
+    for (const auto &other : modify->get_fix_by_style("^gravity"))
+      if (shares_atoms(other->groupbit) && comm->me == 0)
+        error->warning(FLERR,
+                       "Fix flow/force {}: keyword gravity and fix {} gravity both act on the same "
+                       "particles: their weight counts twice",
+                       id, other->id);
+  if (!model.added_mass) return;
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix flow/force {} added_mass cannot work with run_style respa: forces of other "
+               "levels would move particles without the fluid that moves along; use run_style "
+               "verlet, with fix nve/sphere/mts for short contacts",
+               id);
+  for (const auto &other : modify->get_fix_by_style("^flow/force"))
+    if (other != this && shares_atoms(other->groupbit))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Fix flow/force {} added_mass and fix {} act on the same particles: one fix must "
+                 "have all their forces",
+                 id, other->id);
+}
+
+/* ----------------------------------------------------------------------
+   warn once per run of particles for which a law does not hold
+------------------------------------------------------------------------- */
+
+void FixFlowForce::warn_of_ranges()
+{
+  if (warned) return;
+  const double limit = model.drag == apf::FluidModel::STOKES ? 1.0 : 800.0;
+  bigint mine[3] = {}, all[3];    // beyond the range of the drag, of the lift; particles
+  for_blocks([&] {
+    const auto &b = *block;
+    const double per_nu = model.density / model.viscosity;
+    for (int l = 0; l < b.forces.n; l++) {
+      double slip2 = 0.0, om2 = 0.0;
+      for (int c = 0; c < 3; c++) {
+        const double slip = b.forces.velocity[c][l] - b.fluid.velocity[c][l];
+        slip2 += slip * slip;
+        if (model.lift) om2 += b.fluid.vorticity[c][l] * b.fluid.vorticity[c][l];
+      }
+      const double d = b.forces.diameter[l], Re = std::sqrt(slip2) * d * per_nu;
+      const double Re_G = std::sqrt(om2) * d * d * per_nu;
+      mine[0] += !model.hindered() && Re > limit;
+      mine[1] += Re_G > 0.0 && (Re > 1.0 || Re_G > 1.0 || Re > std::sqrt(Re_G));
+      mine[2]++;
+    }
+  });
+  MPI_Allreduce(mine, all, 3, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (!all[0] && !all[1]) return;
+  warned = true;
+  if (comm->me != 0) return;
+  std::string text;
+  if (all[0])
+    text += fmt::format(" drag {} is meant for Re <= {}, {} particles have more;",
+                        limit > 1.0 ? "schiller" : "stokes", limit, all[0]);
+  if (all[1])
+    text += fmt::format(" lift saffman is meant for Re <= 1, Re_G <= 1, Re <= sqrt(Re_G), {} "
+                        "particles are beyond;",
+                        all[1]);
+  text.back() = ' ';
+  error->warning(FLERR, "Fix flow/force {}, step {}:{}of {}", id, update->ntimestep, text, all[2]);
+}
