@@ -1,0 +1,350 @@
+// Lift, Magnus, added mass, pressure gradient, Brownian motion and slip through LAMMPS. Facts: drift
+// velocities, an independent Runge-Kutta integration of Maxey and Riley's equation, Einstein's
+// diffusion, equipartition, balance of momentum, velocity Verlet against collision steps.
+
+#include "comm.h"
+#include "scenes.h"
+
+#include <array>
+#include <functional>
+
+namespace {
+
+// A sphere of diameter 1 and mass pi/6 in the middle of a periodic box.
+std::string sphere(double density = 1.0)
+{
+  return "units lj\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
+         "region box block 0 10 0 10 0 10\ncreate_box 1 box\ncreate_atoms 1 single 5 5 5\n"
+         "set type 1 diameter 1.0 density " +
+      digits(density) + "\npair_style zero 1.0 nocoeff\npair_coeff * *\nfix move all nve/sphere\n";
+}
+std::string properties(double density, double viscosity)
+{
+  return " density " + digits(density) + " viscosity " + digits(viscosity) + "\n";
+}
+std::string timestep(double step)
+{
+  return "timestep " + digits(step) + "\n";
+}
+
+}    // namespace
+
+TEST(FlowForces, added_mass_makes_relaxation_slower_by_half_the_density_ratio)
+{
+  // tau (1 + chi/2), chi = 0.385, tau = 1
+  Simulation sim;
+  sim.run(sphere() + "velocity all set 1 0 0\nfix air all flow/field uniform 0 0 0" +
+          properties(0.385, 1.0 / 18.0) +
+          "fix drag all flow/force air drag stokes added_mass yes\n" + timestep(0.002) +
+          "run 1000\n");
+  EXPECT_NEAR(sim.value("vx[1]"), std::exp(-2.0 / (1.0 + 0.385 / 2.0)), 2e-6);
+  // momentum of the sphere changes by what the fix reports
+  EXPECT_NEAR(sim.value("f_drag[22]"), sim.value("fx[1]"), 1e-14);
+}
+
+TEST(FlowForces, sphere_as_dense_as_the_fluid_moves_with_it)
+{
+  // no drag to speak of: pressure gradient and added mass alone accelerate it as the fluid
+  Simulation sim;
+  sim.run(sphere() + "variable u equal 0.3*step*dt\nfix air all flow/field uniform v_u 0 0" +
+          properties(1.0, 1e-12) +
+          "fix drag all flow/force air drag stokes added_mass yes pressure yes\n" + timestep(0.01) +
+          "run 1\nvelocity all set 0.003 0 0\nrun 500\n");
+  EXPECT_NEAR(sim.value("vx[1]") / (0.3 * 5.01), 1.0, 1e-3);
+}
+
+TEST(FlowForces, oscillating_fluid_against_runge_kutta)
+{
+  // (m + c_M m_f) v' = 3 pi mu d (u - v) + m_f (1 + c_M) u',  u = cos(3 t), of second order in dt
+  const double chi = 0.385, m = pi / 6.0, k = pi / 6.0 * 2.0, mu = 2.0 / 18.0;
+  auto rate = [&](double t, double v) {
+    return (k * (std::cos(3 * t) - v) - 1.5 * chi * m * 3.0 * std::sin(3 * t)) /
+        (m * (1.0 + 0.5 * chi));
+  };
+  double v = 1.0;
+  const int n = 20000;
+  const double time = 4.0, h = time / n;
+  for (int i = 0; i < n; i++) {
+    const double t = i * h, k1 = rate(t, v), k2 = rate(t + h / 2, v + h / 2 * k1),
+                 k3 = rate(t + h / 2, v + h / 2 * k2), k4 = rate(t + h, v + h * k3);
+    v += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  auto error = [&](int steps) {
+    Simulation sim;
+    sim.run(sphere() + "variable u equal cos(3*step*dt)\nfix air all flow/field uniform v_u 0 0" +
+            properties(chi, mu) +
+            "fix drag all flow/force air drag stokes added_mass yes pressure yes\n" +
+            timestep(time / steps) + "velocity all set 1 0 0\nrun " + std::to_string(steps) + "\n");
+    return std::fabs(sim.value("vx[1]") - v);
+  };
+  // the rate of a variable is a difference backward in time: order one
+  EXPECT_LT(error(4000), 1e-3);
+  EXPECT_NEAR(std::log2(error(1000) / error(2000)), 1.0, 0.2);
+}
+
+TEST(FlowForces, saffman_drift)
+{
+  // physics: u = G y; pushed along x with slip V, it drifts with -0.17136 V d sqrt(G/nu)
+  for (double G : {0.01, -0.01}) {
+    const double V = 1e-3, mu = 1.0, k = 3.0 * pi * mu, nu = 1.0;
+    Simulation sim;
+    sim.run(sphere() + "fix air all flow/field shear x y " + digits(G) + " 5.0" +
+            properties(1.0, mu) + "fix push all addforce " + digits(k * V) + " 0 0\n" +
+            "fix drag all flow/force air drag stokes lift saffman\nfix_modify push energy no\n" +
+            timestep(0.01) + "run 400\n");
+    const double expected = -(G > 0 ? 1 : -1) * 0.17136 * V * std::sqrt(std::fabs(G) / nu);
+    // drag along x also holds what the drift changes of u: relative 1e-4
+    EXPECT_NEAR(sim.value("vy[1]") / expected, 1.0, 1e-3) << G;
+    EXPECT_NEAR(sim.value("f_drag[8]") / (k * expected), 1.0, 1e-3) << G;
+  }
+}
+
+TEST(FlowForces, magnus_drift)
+{
+  // fixed spin Om_z and slip V_x: v_y = d^2 Om_z V_x / (24 nu)
+  const double V = 1e-3, Om = 0.3, k = 3.0 * pi;
+  Simulation sim;
+  sim.run(sphere() + "fix air all flow/field uniform 0 0 0" + properties(1.0, 1.0) +
+          "fix push all addforce " + digits(k * V) + " 0 0\nset atom 1 omega 0 0 " + digits(Om) +
+          "\nfix drag all flow/force air drag stokes magnus yes\n" + timestep(0.01) + "run 300\n");
+  EXPECT_NEAR(sim.value("vy[1]") / (Om * V / 24.0), 1.0, 1e-3);
+}
+
+TEST(FlowForces, stiff_forces_have_their_fixed_points)
+{
+  // dt/tau = 1000: weight, lift and drag balance at once
+  const double mu = 1000.0 / 18.0, k = 3.0 * pi * mu;
+  Simulation sim;
+  sim.run(sphere(3.0) + "fix air all flow/field shear x y 0.5 5.0" + properties(1.0, mu) +
+          "fix drag all flow/force air drag stokes torque yes gravity 0 0 -9.81 magnus yes\n" +
+          timestep(3.0) + "run 30\n");
+  EXPECT_NEAR(sim.value("vz[1]") / (-2.0 * pi / 6.0 * 9.81 / k), 1.0, 1e-9);
+  EXPECT_NEAR(gather(sim, "omega")[2], -0.25, 1e-9);
+}
+
+TEST(FlowForces, slip_lets_fine_particles_settle_faster)
+{
+  // 1 um in air at 20 C, 1000 kg/m^3: 3.48e-5 m/s (Hinds, Aerosol Technology, table A11)
+  Simulation sim;
+  sim.run("units si\natom_style sphere\natom_modify map array\nregion box block 0 1e-3 0 1e-3 0 "
+          "1e-3\ncreate_box 1 box\ncreate_atoms 1 single 5e-4 5e-4 5e-4\n"
+          "set type 1 diameter 1e-6 density 1000\npair_style zero 1e-6 nocoeff\npair_coeff * *\n"
+          "neighbor 1e-6 bin\nfix move all nve/sphere\n"
+          "fix air all flow/field uniform 0 0 0 density 1.2 viscosity 1.81e-5\n"
+          "fix drag all flow/force air drag stokes gravity 0 0 -9.81 cunningham 6.6e-8\n"
+          "timestep 1e-6\nrun 100\n");
+  EXPECT_NEAR(-sim.value("vz[1]") / 3.48e-5, 1.0, 0.02);
+}
+
+TEST(FlowForces, hindered_settling)
+{
+  // beta = 3.7 at small Re; `superficial` leaves one power of 1 - c away
+  for (const bool superficial : {false, true}) {
+    Simulation sim;
+    sim.run(sphere(2.0) + "fix air all flow/field uniform 0 0 0" + properties(1.0, 100.0) +
+            "fix drag all flow/force air drag difelice " + (superficial ? "superficial " : "") +
+            "concentration 0.1 gravity 0 0 -1\n" + timestep(0.1) + "run 200\n");
+    const double free = pi / 6.0 / (3.0 * pi * 100.0);
+    EXPECT_NEAR(-sim.value("vz[1]") / free, std::pow(0.9, superficial ? 2.7 : 3.7), 2e-4);
+  }
+}
+
+TEST(FlowForces, columns_are_the_forces_that_the_script_names)
+{
+  Simulation sim;
+  sim.run(sphere() +
+          "velocity all set 0.3 0.1 0\nset atom 1 omega 1 2 3\n"
+          "fix air all flow/field shear x y 0.7 0.0" +
+          properties(0.5, 0.1) +
+          "fix drag all flow/force air drag schiller torque yes gravity 0 0 -1 lift saffman magnus "
+          "yes added_mass yes pressure yes brownian 0.1 77\n"
+          "compute parts all reduce sum f_drag[1] f_drag[7] f_drag[10] f_drag[13] f_drag[16] "
+          "f_drag[19] f_drag[22]\nthermo_style custom step c_parts[1]\n" +
+          timestep(0.01) + "run 7\n");
+  double sum = 0.0;
+  for (int k = 1; k <= 7; k++) sum += sim.value("c_parts[" + std::to_string(k) + "]");
+  EXPECT_NEAR(sum, sim.value("fx[1]"), 1e-13);
+  for (int k = 0; k < 7; k++)
+    EXPECT_NEAR(sim.value("c_parts[" + std::to_string(k + 1) + "]"),
+                sim.value("f_drag[" + std::to_string(3 * k + 1) + "]"), 1e-13)
+        << "the vector has their sums, in the same order";
+  EXPECT_NEAR(sim.value("f_drag[22]"), sum, 1e-13);
+  EXPECT_NE(sim.value("f_drag[19]"), 0.0);
+}
+
+// ---------------------------------------------------------------------- Brownian motion
+
+namespace {
+
+// n spheres that do not see each other, mass 1, at kT = 0.5 in a fluid with tau = 1
+std::string cloud(int n)
+{
+  return "units lj\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
+         "region box block 0 100 0 100 0 100\ncreate_box 1 box\ncreate_atoms 1 random " +
+      std::to_string(n) +
+      " 99 box\nset type 1 diameter 1.0 density $(6/PI)\npair_style zero 0.1 nocoeff\n"
+      "pair_coeff * *\nneighbor 2.0 bin\nfix move all nve/sphere\n"
+      "fix air all flow/field uniform 0 0 0" +
+      properties(1e-3, 1.0 / (3.0 * pi)) +
+      "fix drag all flow/force air drag stokes torque yes brownian 0.5 4711\n";
+}
+
+}    // namespace
+
+TEST(Brownian, diffusion_is_einsteins_at_any_time_step)
+{
+  // from rest: <x^2> = 2 D [t - 2 tau (1 - e) + tau/2 (1 - e^2)] in each direction, D = kT/k = 1/2
+  struct Case {
+    double step;
+    int steps;
+  };
+  for (const auto &one : {Case{0.02, 1000}, Case{1.0, 100}, Case{100.0, 50}}) {
+    Simulation sim;
+    sim.run(cloud(6000) +
+            "compute msd all msd\ncompute where all msd com no\nthermo_style custom "
+            "step c_msd[4]\n" +
+            timestep(one.step) + "run " + std::to_string(one.steps) + "\n");
+    const double t = one.step * one.steps, e = std::exp(-t);
+    const double expected = t - 2.0 * (1.0 - e) + 0.5 * (1.0 - e * e);
+    const double sigma = std::sqrt(2.0 / 6000.0);    // of a mean of squares in one direction
+    // the first kick is half a step long: at large dt/tau one step of the sum is a half
+    const double first = one.step > 10.0 ? 1.0 - 0.75 / one.steps : 1.0;
+    for (int c = 1; c <= 3; c++)
+      EXPECT_NEAR(sim.value("c_msd[" + std::to_string(c) + "]") / expected, first,
+                  4.0 * sigma + 0.002)
+          << "dt/tau = " << one.step << ", direction " << c;
+  }
+}
+
+TEST(Brownian, energy_is_that_of_equipartition)
+{
+  // at steps <v^2> = kT phi(z), z = dt/tau, phi = (1 - exp(-z))/z; spins have z/0.3
+  for (double z : {0.02, 0.5, 2.0}) {
+    Simulation sim;
+    sim.run(cloud(8000) +
+            "compute kin all ke\ncompute rot all erotate/sphere\nthermo_style custom "
+            "step c_kin c_rot\n" +
+            timestep(z) + "run " + std::to_string(static_cast<int>(6.0 / z) + 3) + "\n");
+    auto phi = [](double y) {
+      return -std::expm1(-y) / y;
+    };
+    const double one = 1.5 * 0.5 * 8000.0, sigma = std::sqrt(2.0 / (3.0 * 8000.0));
+    EXPECT_NEAR(sim.value("c_kin") / (one * phi(z)), 1.0, 4.0 * sigma) << z;
+    EXPECT_NEAR(sim.value("c_rot") / (one * phi(z / 0.3)), 1.0, 4.0 * sigma) << z;
+  }
+}
+
+TEST(Brownian, seeds_differ_and_nothing_drifts)
+{
+  std::vector<double> one, other;
+  for (auto *x : {&one, &other}) {
+    Simulation sim;
+    std::string scene = cloud(4000);
+    if (x == &other) scene.replace(scene.find("4711"), 4, "4712");
+    sim.run(scene + timestep(1.0) + "run 30\n");
+    *x = gather(sim, "v");
+    for (int c = 0; c < 3; c++) {
+      double mean = 0.0;
+      for (size_t i = c; i < x->size(); i += 3) mean += (*x)[i] / 4000.0;
+      EXPECT_NEAR(mean, 0.0, 4.0 * std::sqrt(0.5 / 4000.0));
+    }
+  }
+  double correlation = 0.0;
+  for (size_t i = 0; i < one.size(); i++) correlation += one[i] * other[i] / (0.5 * one.size());
+  EXPECT_NEAR(correlation, 0.0, 4.0 / std::sqrt(12000.0));
+}
+
+TEST(RanksBrownian, the_same_motion_on_any_number_of_ranks_and_after_a_restart)
+{
+  const std::string more = timestep(0.3);
+  std::vector<double> alone;
+  {
+    Simulation sim({}, MPI_COMM_SELF);
+    sim.run(cloud(200) + more + "run 40\n");
+    for (int tag = 1; tag <= 200; tag++) {
+      const double *v = sim.lammps()->atom->v[sim.lammps()->atom->map(tag)];
+      alone.insert(alone.end(), v, v + 3);
+    }
+  }
+  const std::string file = scratch_file("brownian");
+  {
+    Simulation sim;
+    sim.run(cloud(200) + more + "run 25\nwrite_restart " + file + "\nrun 15\n");
+    EXPECT_LT(difference(gather(sim, "v"), alone), 1e-13);
+  }
+  Simulation sim;
+  const std::string scene = cloud(200);
+  sim.run("read_restart " + file + "\ncomm_modify vel yes\n" +
+          scene.substr(scene.find("pair_style")) + more + "run 15\n");
+  // the first force of a run acts on velocities at the step instead of half a step before it
+  EXPECT_LT(difference(gather(sim, "v"), alone), 0.1);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (sim.lammps()->comm->me == 0) std::filesystem::remove(file);
+}
+
+// ---------------------------------------------------------------------- with contacts
+
+TEST(MtsFlowForces, doublet_with_added_mass_is_that_of_velocity_verlet)
+{
+  auto after = [](const std::string &integrate, int steps) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}, {4.985, 4.0, 4.0}});
+    set_motion(sim, 1, {3.0, 0.5, 0.0}, {0.0, 0.0, 2.0});
+    set_motion(sim, 2, {-3.0, 0.0, 0.2}, {0.0, 1.0, 0.0});
+    sim.run("neighbor 0.5 bin\nfix air all flow/field shear x y 5.0 4.0 density 0.8 viscosity 0.3\n"
+            "fix drag all flow/force air drag schiller torque yes added_mass yes pressure yes lift "
+            "saffman magnus yes\n" +
+            integrate + "run " + std::to_string(steps));
+    return state_of(sim);
+  };
+  const State fine = after("fix nve all nve/sphere\n", 3200);
+  const State mts16 = after(mts(16), 200);
+  EXPECT_LT(difference(mts16.x, fine.x), 3e-5);
+  EXPECT_LT(difference(mts16.v, fine.v), 2e-3);
+  EXPECT_LT(difference(mts16.omega, fine.omega), 2e-3);
+  const State mts4 = after(mts(4), 800);
+  EXPECT_LT(difference(mts4.v, fine.v), difference(mts16.v, fine.v));
+}
+
+TEST(MtsFlowForces, contact_forces_are_untouched_by_added_mass)
+{
+  // at rest on a floor: the wall bears the weight, whatever moves along with the sphere
+  for (const std::string &added : {std::string("no"), std::string("yes")}) {
+    Scene scene;
+    scene.boundary = "p p f";
+    scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr +
+        "\nfix wall all wall/levelset plane z 0 NULL" + jkr + "damping tsuji 0.1 sliding 0.5\n";
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 0.5 - Material().wall().delta_eq()}}, scene);
+    sim.run("fix air all flow/field uniform 0 0 0 density 0.8 viscosity 0.01\n"
+            "fix drag all flow/force air drag stokes gravity 0 0 -50 added_mass " +
+            added + "\n" + mts(16) + "run 2000");
+    EXPECT_NEAR(sim.value("f_wall[3]") / (-0.2 * pi / 6.0 * 50.0), 1.0, 1e-3) << added;
+  }
+}
+
+TEST(FlowForces, added_mass_refuses_what_it_cannot_do)
+{
+  Simulation sim;
+  sim.run(sphere() + "fix air all flow/field uniform 0 0 0" + properties(1.0, 1.0) +
+          "fix drag all flow/force air drag stokes added_mass yes\nrun_style respa 2 2 pair 1\n");
+  EXPECT_NE(sim.error_of("run 1").find("added_mass cannot work with run_style respa"),
+            std::string::npos);
+}
+
+TEST(FlowForces, errors_name_what_is_wrong)
+{
+  const std::vector<std::array<std::string, 2>> rows = {
+      {"lift mei", "lift must be saffman, got mei"},
+      {"magnus on", "magnus must be yes or no, got on"},
+      {"brownian -1 3", "temperature must be >= 0, got -1"},
+      {"brownian 1 0", "seed must be > 0, got 0"},
+      {"cunningham 0", "mean free path must be > 0, got 0"},
+      {"concentration 0.1", "goes with drag difelice only"}};
+  for (const auto &row : rows) {
+    Simulation sim;
+    sim.run(sphere() + "fix air all flow/field uniform 0 0 0" + properties(1.0, 1.0));
+    const auto text = sim.error_of("fix drag all flow/force air drag stokes " + row[0]);
+    EXPECT_NE(text.find(row[1]), std::string::npos) << text;
+  }
+}
