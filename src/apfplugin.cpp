@@ -8,6 +8,7 @@
 
 #include "compute_aggregate_contact.h"
 #include "fix_contact_history.h"
+#include "fix_flow_concentration.h"
 #include "fix_flow_field.h"
 #include "fix_flow_force.h"
 #include "fix_inlet_flow.h"
@@ -73,6 +74,9 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
 
   creates_with_words(&create_with_words<FixFlowField>);
   add("fix", "flow/field", "velocity field of the fluid, APF " APF_VERSION);
+
+  creates_with_words(&create_with_words<FixFlowConcentration>);
+  add("fix", "flow/concentration", "concentration of particles on a grid, APF " APF_VERSION);
 
   creates_with_words(&create_with_words<FixFlowForce>);
   add("fix", "flow/force", "forces of the fluid on particles, APF " APF_VERSION);

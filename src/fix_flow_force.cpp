@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_flow_concentration.h"
 #include "fix_flow_field.h"
 #include "fix_nve_sphere_mts.h"
 #include "force.h"
@@ -62,6 +63,8 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
   size_peratom_cols = 6 + 3 * static_cast<int>(columns.size());
   peratom_freq = 1;
   virial_global_flag = virial_peratom_flag = 1;
+  pergrid_flag = feedback ? 1 : 0;
+  pergrid_freq = 1;
   respa_level_support = 1;
 
   nmax = atom->nmax;
@@ -95,6 +98,8 @@ void FixFlowForce::init()
                "Fix flow/force requires units where force = mass * acceleration "
                "(lj, si, cgs, micro, nano), got {}",
                update->unit_style);
+  if (!concentration_id.empty()) cloud = find_concentration(Error::NOLASTLINE);
+  if (feedback) feedback->set_up();
   check_other_fixes();
   model.density = field->density;
   model.viscosity = field->viscosity;
@@ -158,13 +163,22 @@ void FixFlowForce::post_force(int vflag)
   for (int i = 0; i < atom->nlocal; i++)
     if (!(atom->mask[i] & groupbit)) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
 
+  if (feedback) {
+    if (domain->box_change) feedback->set_up();
+    feedback->begin();
+  }
   for_blocks([this] {
     fluid_forces(model, block->fluid, block->forces);
     scatter();
     add_up();
     if (sub_stepper) keep_relaxation();
     if (evflag) tally();
+    if (feedback) react();
   });
+  if (!feedback) return;
+  feedback->end();
+  const apf::Vec3 got = feedback->sum();
+  add(total + n_sums - 3, got);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -223,7 +237,12 @@ int FixFlowForce::gather(int first, double whole, double sub)
   std::fill(to.mass + n, to.mass + apf::block_width, 1.0);
   if (model.brownian)
     for (int l = 0; l < n; l++) to.tag[l] = static_cast<std::uint64_t>(atom->tag[block->atom[l]]);
-  if (model.hindered()) std::fill_n(to.concentration, n, concentration);
+  if (model.hindered()) {
+    if (cloud)
+      cloud->sample(block->points, to.concentration);
+    else
+      std::fill_n(to.concentration, n, concentration);
+  }
   if (model.planar)
     for (auto *out_of_plane : {&to.velocity[2], &to.other_force[2], &to.spin[0], &to.spin[1],
                                &to.other_torque[0], &to.other_torque[1]})
@@ -290,6 +309,26 @@ void FixFlowForce::keep_relaxation()
 }
 
 /* ----------------------------------------------------------------------
+   all forces of the fluid but weight less buoyancy act back on it
+------------------------------------------------------------------------- */
+
+void FixFlowForce::react()
+{
+  const auto &from = block->forces;
+  for (int l = 0; l < from.n; l++) {
+    apf::Vec3 force = at(from.force[apf::DRAG], l);
+    for (const int k : columns)
+      if (k != apf::WEIGHT) force = force + at(from.force[k], l);
+    const double *x = atom->x[block->atom[l]];
+    if (!feedback->add(x, force))
+      error->one(FLERR, Error::NOLASTLINE,
+                 "Fix flow/force {} feedback: a particle at {:.8g} {:.8g} {:.8g} lies outside the "
+                 "box",
+                 id, x[0], x[1], x[2]);
+  }
+}
+
+/* ----------------------------------------------------------------------
    virial of an external force, as fix addforce counts it
 ------------------------------------------------------------------------- */
 
@@ -324,7 +363,7 @@ double FixFlowForce::share(int i) const
 
 /* ----------------------------------------------------------------------
    sums over the group: 1-3 = drag, 4-6 = gravity less buoyancy, 7-21 = the other forces,
-   22-24 = all that was added to the forces on the particles
+   22-24 = all that was added to the forces on the particles, 25-27 = force on the grid
 ------------------------------------------------------------------------- */
 
 double FixFlowForce::compute_vector(int n)
@@ -342,4 +381,53 @@ double FixFlowForce::memory_usage()
 {
   return (double) nmax * size_peratom_cols * sizeof(double) + sizeof(Block) +
       relaxations.capacity() * sizeof(Relaxation);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowForce::reset_grid()
+{
+  if (feedback) feedback->set_up();
+}
+
+int FixFlowForce::get_grid_by_name(const std::string &name, int &dim)
+{
+  dim = domain->dimension;
+  return feedback && name == "grid" ? 0 : -1;
+}
+
+void *FixFlowForce::get_grid_by_index(int index)
+{
+  return index == 0 ? feedback->grid.lammps_grid() : nullptr;
+}
+
+int FixFlowForce::get_griddata_by_name(int igrid, const std::string &name, int &ncol)
+{
+  ncol = 3;
+  return igrid == 0 && name == "data" ? 0 : -1;
+}
+
+void *FixFlowForce::get_griddata_by_index(int index)
+{
+  return index == 0 ? feedback->grid.lammps_data() : nullptr;
+}
+
+void FixFlowForce::pack_forward_grid(int, void *buf, int n, int *list)
+{
+  feedback->grid.pack(static_cast<double *>(buf), n, list);
+}
+
+void FixFlowForce::unpack_forward_grid(int, void *buf, int n, int *list)
+{
+  feedback->grid.unpack_set(static_cast<double *>(buf), n, list);
+}
+
+void FixFlowForce::pack_reverse_grid(int, void *buf, int n, int *list)
+{
+  feedback->grid.pack(static_cast<double *>(buf), n, list);
+}
+
+void FixFlowForce::unpack_reverse_grid(int, void *buf, int n, int *list)
+{
+  feedback->grid.unpack_add(static_cast<double *>(buf), n, list);
 }

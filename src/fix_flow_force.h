@@ -11,6 +11,8 @@ FixStyle(flow/force,FixFlowForce);
 
 #include "fix.h"
 
+#include "flow_feedback.h"
+
 #include "flow/fluid_forces.h"
 #include "timestep/sub_step.h"
 
@@ -31,6 +33,17 @@ class FixFlowForce : public Fix {
   void post_force(int) override;
   void post_force_respa(int, int, int) override;
   void post_run() override;
+  void reset_grid() override;
+
+  int get_grid_by_name(const std::string &, int &) override;
+  void *get_grid_by_index(int) override;
+  int get_griddata_by_name(int, const std::string &, int &) override;
+  void *get_griddata_by_index(int) override;
+  void pack_forward_grid(int, void *, int, int *) override;
+  void unpack_forward_grid(int, void *, int, int *) override;
+  void pack_reverse_grid(int, void *, int, int *) override;
+  void unpack_reverse_grid(int, void *, int, int *) override;
+
   double compute_vector(int) override;
   double memory_usage() override;
 
@@ -44,8 +57,11 @@ class FixFlowForce : public Fix {
   std::string field_id;
   class FixFlowField *field = nullptr;
   apf::FluidModel model;
-  double concentration = -1.0;    // volume fraction of particles; < 0: none given
-  std::vector<int> columns;       // forces of the per-atom array after drag and torque
+  double concentration = -1.0;     // volume fraction of particles; < 0: none given
+  std::string concentration_id;    // of the fix that knows it, or
+  class FixFlowConcentration *cloud = nullptr;
+  std::unique_ptr<FlowFeedback> feedback;
+  std::vector<int> columns;    // forces of the per-atom array after drag and torque
 
   int ilevel_respa = 0;
   const class FixNVESphereMTS *sub_stepper = nullptr;
@@ -69,8 +85,8 @@ class FixFlowForce : public Fix {
   };
   std::vector<Relaxation> relaxations;    // of local atoms, where contacts are sub-stepped
 
-  // sums over the group: of each force, and of all that was added to f
-  static constexpr int n_sums = 3 * (apf::n_fluid_forces + 1);
+  // sums over the group: of each force, of all that was added to f, of what the grid got
+  static constexpr int n_sums = 3 * (apf::n_fluid_forces + 2);
   double total[n_sums], total_all[n_sums];
   bool summed = false;
 
@@ -83,6 +99,8 @@ class FixFlowForce : public Fix {
   int parse_brownian(int iarg, int narg, char **arg);
   int parse_cunningham(int iarg, int narg, char **arg);
   int parse_concentration(int iarg, int narg, char **arg);
+  int parse_feedback(int iarg, int narg, char **arg);
+  class FixFlowConcentration *find_concentration(int iarg);
   class FixFlowField *find_field(int iarg);
   void check_particles();
   void check_other_fixes();
@@ -95,6 +113,7 @@ class FixFlowForce : public Fix {
   void scatter();
   void add_up();
   void keep_relaxation();
+  void react();
   void tally();
 };
 

@@ -6,6 +6,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_flow_concentration.h"
 #include "fix_flow_field.h"
 #include "force.h"
 #include "math_const.h"
@@ -35,7 +36,8 @@ void FixFlowForce::parse(int narg, char **arg)
                   {"pressure", 1, &FixFlowForce::parse_switch},
                   {"brownian", 2, &FixFlowForce::parse_brownian},
                   {"cunningham", 1, &FixFlowForce::parse_cunningham},
-                  {"concentration", 1, &FixFlowForce::parse_concentration}};
+                  {"concentration", 1, &FixFlowForce::parse_concentration},
+                  {"feedback", 1, &FixFlowForce::parse_feedback}};
   int iarg = 4;
   while (iarg < narg) {
     const std::string word = arg[iarg];
@@ -46,22 +48,21 @@ void FixFlowForce::parse(int narg, char **arg)
         utils::missing_cmd_args(FLERR, "fix flow/force " + word, error);
       next = (this->*keyword.parse)(iarg, narg, arg);
     }
-    if (word == "feedback")
-      error->all(FLERR, iarg, "Fix flow/force keyword {} is not available in this version of APF",
-                 word);
     if (!next)
       error->all(FLERR, iarg,
                  "Fix flow/force keyword must be drag, torque, gravity, lift, magnus, added_mass, "
-                 "pressure, brownian, cunningham or concentration, got {}",
+                 "pressure, brownian, cunningham, concentration or feedback, got {}",
                  word);
     iarg = next;
   }
   if (model.drag == apf::FluidModel::NONE)
     error->all(FLERR, "Fix flow/force requires keyword drag");
-  if (model.hindered() && concentration < 0.0)
+  const bool given = concentration >= 0.0 || cloud;
+  if (model.hindered() && !given)
     error->all(FLERR, "Fix flow/force drag difelice requires keyword concentration");
-  if (!model.hindered() && concentration >= 0.0)
-    error->all(FLERR, "Fix flow/force keyword concentration goes with drag difelice only");
+  if (!model.hindered() && given && !feedback)
+    error->all(FLERR,
+               "Fix flow/force keyword concentration goes with drag difelice or feedback yes only");
 }
 
 /* ----------------------------------------------------------------------
@@ -146,16 +147,59 @@ int FixFlowForce::parse_cunningham(int iarg, int /*narg*/, char **arg)
 
 int FixFlowForce::parse_concentration(int iarg, int /*narg*/, char **arg)
 {
-  if (!utils::is_double(arg[iarg + 1]))
-    error->all(FLERR, iarg + 1,
-               "Fix flow/force concentration must be a number, since fix flow/concentration is not "
-               "available in this version of APF, got {}",
-               arg[iarg + 1]);
+  if (!utils::is_double(arg[iarg + 1])) {
+    concentration_id = arg[iarg + 1];
+    cloud = find_concentration(iarg + 1);
+    return iarg + 2;
+  }
   concentration = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
   if (!(concentration >= 0.0 && concentration <= apf::max_concentration))
     error->all(FLERR, iarg + 1, "Fix flow/force concentration must be in [0, {}], got {}",
                apf::max_concentration, arg[iarg + 1]);
   return iarg + 2;
+}
+
+// yes: on the grid of fix flow/concentration; NX NY NZ: on one of its own
+int FixFlowForce::parse_feedback(int iarg, int narg, char **arg)
+{
+  const std::string value = arg[iarg + 1];
+  if (value == "no") return iarg + 2;
+  if (value == "yes") {
+    if (!cloud)
+      error->all(FLERR, iarg + 1,
+                 "Fix flow/force feedback yes takes the grid of fix flow/concentration: name that "
+                 "with keyword concentration before it, or write feedback NX NY NZ");
+    feedback = std::make_unique<FlowFeedback>(lmp, this, cloud->cells());
+    return iarg + 2;
+  }
+  if (!utils::is_integer(value))
+    error->all(FLERR, iarg + 1,
+               "Fix flow/force feedback must be yes, no or numbers of cells, got {}", value);
+  if (iarg + 4 > narg) utils::missing_cmd_args(FLERR, "fix flow/force feedback", error);
+  std::array<int, 3> cells;
+  for (int c = 0; c < 3; c++) {
+    cells[c] = utils::inumeric(FLERR, arg[iarg + 1 + c], false, lmp);
+    if (cells[c] < 1 || (domain->dimension == 2 && c == 2 && cells[c] != 1))
+      error->all(FLERR, iarg + 1 + c, "Fix flow/force feedback number of cells must be {}, got {}",
+                 cells[c] < 1 ? ">= 1" : "1 along z in a 2d simulation", arg[iarg + 1 + c]);
+  }
+  if (domain->triclinic)
+    error->all(FLERR, iarg, "Fix flow/force feedback needs an orthogonal simulation box");
+  feedback = std::make_unique<FlowFeedback>(lmp, this, cells);
+  return iarg + 4;
+}
+
+FixFlowConcentration *FixFlowForce::find_concentration(int iarg)
+{
+  auto *fix = modify->get_fix_by_id(concentration_id);
+  if (!fix)
+    error->all(FLERR, iarg, "Fix flow/force concentration fix {} does not exist", concentration_id);
+  auto *result = dynamic_cast<FixFlowConcentration *>(fix);
+  if (!result)
+    error->all(FLERR, iarg,
+               "Fix flow/force concentration fix {} must be of style flow/concentration, got {}",
+               concentration_id, fix->style);
+  return result;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -81,8 +81,8 @@ double integrate(double w, double time, const std::function<double(double)> &rat
   return w;
 }
 
-// slip after n kicks over time t, one sphere of mass and diameter 1 in a fluid at rest of density rho
-// and viscosity mu, pulled by the force F; drag of Schiller and Naumann
+// slip after n kicks over time t, one sphere of mass and diameter 1 in a fluid at rest of density
+// rho and viscosity mu, pulled by the force F; drag of Schiller and Naumann
 double slip_after(int n, double t, double w, double F, double rho, double mu)
 {
   FluidModel model;

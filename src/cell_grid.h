@@ -1,0 +1,83 @@
+// A regular grid of cells over the simulation box, shared out among ranks by LAMMPS's Grid2d or
+// Grid3d, with ghost cells and one or more numbers a cell. Two dimensions are a layer of cells.
+
+#ifndef APF_CELL_GRID_H
+#define APF_CELL_GRID_H
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace LAMMPS_NS {
+class Fix;
+class Grid2d;
+class Grid3d;
+class LAMMPS;
+
+class CellGrid {
+ public:
+  // owner: the fix whose functions pack_forward_grid() and so on call those below
+  CellGrid(LAMMPS *lmp, Fix *owner, const std::array<int, 3> &cells, int columns);
+  ~CellGrid();
+
+  // Anew for the present box and its division among ranks; values are 0 then. reach: cells beyond
+  // that of a particle that are read or written, the particle no more than half the neighbor skin
+  // outside its rank's part of the box. Collective.
+  void set_up(int reach);
+
+  const std::array<int, 3> n;    // cells of the whole grid
+  const int columns;             // numbers of a cell
+  int lo[3], hi[3];              // cells of this rank, both ends included
+  int first[3], last[3];         // and of those that it has, as its own or as ghosts
+  double spacing[3], inverse_spacing[3], origin[3];
+  bool periodic[3];
+  double cell_volume;    // in two dimensions area
+
+  double *at(int x, int y, int z)
+  {
+    return &values[columns *
+                   ((static_cast<size_t>(z - first[2]) * size[1] + (y - first[1])) * size[0] +
+                    (x - first[0]))];
+  }
+  const double *at(int x, int y, int z) const { return const_cast<CellGrid *>(this)->at(x, y, z); }
+
+  void for_own(const std::function<void(double *)> &act);
+
+  void clear();
+  void sum_ghosts();     // values of ghosts are added to those of their owners
+  void fill_ghosts();    // ghosts get the values of their owners
+
+  // Weights of trilinear interpolation between centres of cells, in two dimensions bilinear: of cell
+  // base and the next along each axis. Beyond the centres at a border the outermost cells count.
+  // False if the point is beyond the cells of this rank.
+  bool trilinear(const double *x, int *base, double *weight) const;
+  int next(int c, int cell) const { return n[c] > 1 || periodic[c] ? cell + 1 : cell; }
+
+  // for the owner: what LAMMPS asks of a fix with per-grid data
+  int dimension() const { return flat ? 2 : 3; }
+  void *lammps_grid() const;
+  void *lammps_data();    // [z][y][x] or, with several columns, [z][y][x][column]
+  void pack(double *buf, int n, const int *list) const;
+  void unpack_set(const double *buf, int n, const int *list);
+  void unpack_add(const double *buf, int n, const int *list);
+  double memory_usage() const;
+
+ private:
+  LAMMPS *lmp;
+  Fix *owner;
+  bool flat;
+  int size[3];
+  std::unique_ptr<Grid2d> grid2d;
+  std::unique_ptr<Grid3d> grid3d;
+  std::vector<double> values, out, in;
+  std::vector<double *> lines, cells;
+  std::vector<double **> planes, cell_lines;
+  std::vector<double ***> cell_planes;
+
+  void point_to_values();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

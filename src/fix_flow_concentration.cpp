@@ -1,0 +1,340 @@
+#include "fix_flow_concentration.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_flow_field.h"
+#include "fix_wall_levelset.h"
+#include "math_const.h"
+#include "modify.h"
+#include "respa.h"
+#include "update.h"
+
+#include "flow/di_felice.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+static constexpr const char *command = "Fix flow/concentration";
+
+/* ---------------------------------------------------------------------- */
+
+FixFlowConcentration::FixFlowConcentration(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), grid(lmp, this, parse_cells(narg, arg), 1), open(lmp, this, grid.n, 1)
+{
+  if (!atom->radius_flag)
+    error->all(FLERR, 2, "{} needs atom style sphere, got {}", command, atom->get_style());
+  if (domain->triclinic) error->all(FLERR, 2, "{} needs an orthogonal simulation box", command);
+  pergrid_flag = 1;
+  pergrid_freq = 1;
+  vector_flag = 1;
+  size_vector = 3;
+  global_freq = 1;
+  extvector = 0;
+  parse(narg, arg);
+  set_up();
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::array<int, 3> FixFlowConcentration::parse_cells(int narg, char **arg)
+{
+  if (narg < 8) utils::missing_cmd_args(FLERR, "fix flow/concentration", error);
+  std::array<int, 3> n;
+  for (int c = 0; c < 3; c++) {
+    n[c] = utils::inumeric(FLERR, arg[3 + c], false, lmp);
+    if (n[c] < 1)
+      error->all(FLERR, 3 + c, "{} number of cells must be >= 1, got {}", command, arg[3 + c]);
+  }
+  if (domain->dimension == 2 && n[2] != 1)
+    error->all(FLERR, 5, "{} number of cells along z must be 1 in a 2d simulation, got {}", command,
+               arg[5]);
+  return n;
+}
+
+void FixFlowConcentration::parse(int narg, char **arg)
+{
+  for (int iarg = 6; iarg < narg; iarg += 2) {
+    const std::string word = arg[iarg];
+    if (word != "cloud" && word != "every")
+      error->all(FLERR, iarg, "{} keyword must be cloud or every, got {}", command, word);
+    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix flow/concentration " + word, error);
+    if (word == "every") {
+      every = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (every < 1)
+        error->all(FLERR, iarg + 1, "{} every must be >= 1, got {}", command, arg[iarg + 1]);
+    } else {
+      radius = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      if (!(radius > 0.0 && std::isfinite(radius)))
+        error->all(FLERR, iarg + 1, "{} cloud radius must be > 0, got {}", command, arg[iarg + 1]);
+    }
+  }
+  if (radius == 0.0) error->all(FLERR, "{} requires keyword cloud", command);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixFlowConcentration::setmask()
+{
+  return PRE_FORCE | PRE_FORCE_RESPA;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowConcentration::init()
+{
+  set_up();    // the neighbor skin may have changed
+  if (every) return;
+  every = 1;
+  for (const auto &fix : modify->get_fix_list()) {
+    int dim;
+    const auto *steps = static_cast<int *>(fix->extract("fluid_every", dim));
+    if (steps) every = *steps;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowConcentration::set_up()
+{
+  static const char axes[] = "xyz";
+  int reach = 1;
+  for (int c = 0; c < domain->dimension; c++) {
+    if (domain->periodicity[c] && 2.0 * apf::cloud_reach * radius > domain->prd[c])
+      error->all(
+          FLERR, Error::NOLASTLINE,
+          "{} {}: clouds reach to {} times their radius, which must not be more than half of "
+          "the periodic box: cloud must be <= {:.6g} along {}, got {}",
+          command, id, apf::cloud_reach, 0.5 * domain->prd[c] / apf::cloud_reach, axes[c], radius);
+    reach = std::max(reach, apf::cloud_cells(radius, domain->prd[c] / grid.n[c]));
+  }
+  grid.set_up(reach);
+  open.set_up(reach);
+  mark_fluid();
+}
+
+void FixFlowConcentration::reset_grid()
+{
+  set_up();
+  renew();
+}
+
+/* ----------------------------------------------------------------------
+   cells whose centres lie in the fluid
+------------------------------------------------------------------------- */
+
+void FixFlowConcentration::mark_fluid()
+{
+  int closed = 0;
+  for (int z = open.first[2]; z <= open.last[2]; z++)
+    for (int y = open.first[1]; y <= open.last[1]; y++)
+      for (int x = open.first[0]; x <= open.last[0]; x++) {
+        const int cell[3] = {x, y, z};
+        double centre[3];
+        for (int c = 0; c < 3; c++) centre[c] = open.origin[c] + (cell[c] + 0.5) * open.spacing[c];
+        const bool fluid = is_fluid(centre);
+        *open.at(x, y, z) = fluid;
+        closed |= !fluid;
+      }
+  MPI_Allreduce(MPI_IN_PLACE, &closed, 1, MPI_INT, MPI_MAX, world);
+  walled = closed;
+}
+
+bool FixFlowConcentration::is_fluid(double *x) const
+{
+  domain->remap(x);
+  for (const auto &fix : modify->get_fix_list()) {
+    if (const auto *wall = dynamic_cast<FixWallLevelset *>(fix))
+      if (wall->distance(x) <= 0.0) return false;
+    const auto *field = dynamic_cast<FixFlowField *>(fix);
+    if (!field || !field->has_distance()) continue;
+    apf::PointBlock point;
+    apf::Lanes distance;
+    point.n = 1;
+    point.set(0, x);
+    field->distance(point, distance);
+    if (distance[0] <= 0.0) return false;
+  }
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowConcentration::setup_pre_force(int /*vflag*/)
+{
+  if (domain->box_change) set_up();
+  renew();
+}
+
+void FixFlowConcentration::setup_pre_force_respa(int vflag, int ilevel)
+{
+  if (ilevel == dynamic_cast<Respa *>(update->integrate)->nlevels - 1) setup_pre_force(vflag);
+}
+
+void FixFlowConcentration::pre_force(int /*vflag*/)
+{
+  if (domain->box_change) set_up();
+  if (domain->box_change || update->ntimestep % every == 0) renew();
+}
+
+void FixFlowConcentration::pre_force_respa(int vflag, int ilevel, int /*iloop*/)
+{
+  if (ilevel == dynamic_cast<Respa *>(update->integrate)->nlevels - 1) pre_force(vflag);
+}
+
+/* ----------------------------------------------------------------------
+   In two dimensions a particle counts in a slab as thick as itself.
+------------------------------------------------------------------------- */
+
+void FixFlowConcentration::renew()
+{
+  const double *r = atom->radius;
+  const bool flat = domain->dimension == 2;
+  grid.clear();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit)
+      spread(atom->x[i], 4.0 / 3.0 * MathConst::MY_PI * r[i] * r[i] * (flat ? 0.5 : r[i]));
+  grid.sum_ghosts();
+  grid.fill_ghosts();
+}
+
+/* ----------------------------------------------------------------------
+   what would fall on cells outside the fluid comes back to those inside
+------------------------------------------------------------------------- */
+
+void FixFlowConcentration::spread(const double *x, double volume)
+{
+  for (int c = 0; c < 3; c++) {
+    const double at = (x[c] - grid.origin[c]) * grid.inverse_spacing[c];
+    const int reach = apf::cloud_cells(radius, grid.spacing[c]);
+    const int lowest = grid.periodic[c] ? static_cast<int>(std::floor(at)) - reach : 0;
+    const int highest = grid.periodic[c] ? lowest + 2 * reach : grid.n[c] - 1;
+    weights[c].set(at, radius * grid.inverse_spacing[c], lowest, highest);
+    const int end = weights[c].first + static_cast<int>(weights[c].w.size()) - 1;
+    if (weights[c].w.empty() || weights[c].first < grid.first[c] || end > grid.last[c])
+      error->one(
+          FLERR, Error::NOLASTLINE,
+          "{} {}: a particle at {:.8g} {:.8g} {:.8g} lies outside the box, or has moved more "
+          "than half the neighbor skin since neighbor lists were built",
+          command, id, x[0], x[1], x[2]);
+  }
+  auto for_cells = [&](auto act) {
+    for (size_t z = 0; z < weights[2].w.size(); z++)
+      for (size_t y = 0; y < weights[1].w.size(); y++) {
+        const double yz = weights[2].w[z] * weights[1].w[y];
+        const int cy = weights[1].first + static_cast<int>(y);
+        const int cz = weights[2].first + static_cast<int>(z);
+        act(yz, grid.at(weights[0].first, cy, cz), open.at(weights[0].first, cy, cz));
+      }
+  };
+  const size_t nx = weights[0].w.size();
+  const double *wx = weights[0].w.data();
+  double share = 1.0;
+  if (walled) {
+    share = 0.0;
+    for_cells([&](double yz, const double *, const double *fluid) {
+      for (size_t k = 0; k < nx; k++) share += yz * wx[k] * fluid[k];
+    });
+    if (share == 0.0) return;    // deep in a wall
+  }
+  const double amount = volume / (share * grid.cell_volume);
+  for_cells([&](double yz, double *to, const double *fluid) {
+    if (walled)
+      for (size_t k = 0; k < nx; k++) to[k] += amount * yz * wx[k] * fluid[k];
+    else
+      for (size_t k = 0; k < nx; k++) to[k] += amount * yz * wx[k];
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixFlowConcentration::sample(const apf::PointBlock &points, apf::Lanes &concentration) const
+{
+  for (int l = 0; l < points.n; l++) {
+    const double x[3] = {points.x[0][l], points.x[1][l], points.x[2][l]};
+    int base[3];
+    double weight[8];
+    if (!grid.trilinear(x, base, weight))
+      error->one(FLERR, Error::NOLASTLINE,
+                 "{} {}: a particle at {:.8g} {:.8g} {:.8g} lies outside the box", command, id,
+                 x[0], x[1], x[2]);
+    double sum = 0.0;
+    for (int k = 0; k < (domain->dimension == 2 ? 4 : 8); k++)
+      sum += weight[k] *
+          *grid.at(k & 1 ? grid.next(0, base[0]) : base[0], k & 2 ? grid.next(1, base[1]) : base[1],
+                   k & 4 ? grid.next(2, base[2]) : base[2]);
+    concentration[l] = sum;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   1 = volume of all particles on the grid, 2 = largest concentration, 3 = cells above the densest
+   random packing
+------------------------------------------------------------------------- */
+
+double FixFlowConcentration::compute_vector(int n)
+{
+  double mine = 0.0, all;
+  grid.for_own([&](const double *c) {
+    if (n == 0)
+      mine += *c * grid.cell_volume;
+    else if (n == 1)
+      mine = MAX(mine, *c);
+    else
+      mine += *c > apf::max_concentration;
+  });
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, n == 1 ? MPI_MAX : MPI_SUM, world);
+  return all;
+}
+
+double FixFlowConcentration::memory_usage()
+{
+  return grid.memory_usage() + open.memory_usage();
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixFlowConcentration::get_grid_by_name(const std::string &name, int &dim)
+{
+  dim = grid.dimension();
+  return name == "grid" ? 0 : -1;
+}
+
+void *FixFlowConcentration::get_grid_by_index(int index)
+{
+  return index == 0 ? grid.lammps_grid() : nullptr;
+}
+
+int FixFlowConcentration::get_griddata_by_name(int igrid, const std::string &name, int &ncol)
+{
+  ncol = 0;
+  return igrid == 0 && name == "data" ? 0 : -1;
+}
+
+void *FixFlowConcentration::get_griddata_by_index(int index)
+{
+  return index == 0 ? grid.lammps_data() : nullptr;
+}
+
+void FixFlowConcentration::pack_forward_grid(int, void *buf, int n, int *list)
+{
+  grid.pack(static_cast<double *>(buf), n, list);
+}
+
+void FixFlowConcentration::unpack_forward_grid(int, void *buf, int n, int *list)
+{
+  grid.unpack_set(static_cast<double *>(buf), n, list);
+}
+
+void FixFlowConcentration::pack_reverse_grid(int, void *buf, int n, int *list)
+{
+  grid.pack(static_cast<double *>(buf), n, list);
+}
+
+void FixFlowConcentration::unpack_reverse_grid(int, void *buf, int n, int *list)
+{
+  grid.unpack_add(static_cast<double *>(buf), n, list);
+}

@@ -1,0 +1,69 @@
+// Concentration of particles: their volumes smeared out to Gaussian clouds, on a grid.
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(flow/concentration,FixFlowConcentration);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_FLOW_CONCENTRATION_H
+#define LMP_FIX_FLOW_CONCENTRATION_H
+
+#include "cell_grid.h"
+#include "fix.h"
+
+#include "flow/fluid_block.h"
+#include "flow/gaussian_cloud.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FixFlowConcentration : public Fix {
+ public:
+  FixFlowConcentration(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void setup_pre_force_respa(int, int) override;
+  void pre_force(int) override;
+  void pre_force_respa(int, int, int) override;
+  void reset_grid() override;
+  double compute_vector(int) override;
+  double memory_usage() override;
+
+  int get_grid_by_name(const std::string &, int &) override;
+  void *get_grid_by_index(int) override;
+  int get_griddata_by_name(int, const std::string &, int &) override;
+  void *get_griddata_by_index(int) override;
+  void pack_forward_grid(int, void *, int, int *) override;
+  void unpack_forward_grid(int, void *, int, int *) override;
+  void pack_reverse_grid(int, void *, int, int *) override;
+  void unpack_reverse_grid(int, void *, int, int *) override;
+
+  // volume of particles per volume at points of this rank's part of the box, >= 0
+  void sample(const apf::PointBlock &points, apf::Lanes &concentration) const;
+  const std::array<int, 3> &cells() const { return grid.n; }
+
+ private:
+  CellGrid grid;          // concentration                                                 [-]
+  CellGrid open;          // 1 where there is fluid, else 0; used if `walled`
+  double radius = 0.0;    // R of a cloud                                            [length]
+  int every = 0;          // time steps between updates; 0 = fluid steps
+  bool walled = false;
+  apf::CloudWeights weights[3];
+
+  std::array<int, 3> parse_cells(int narg, char **arg);
+  void parse(int narg, char **arg);
+  void set_up();
+  void mark_fluid();
+  bool is_fluid(double *x) const;
+  void renew();
+  void spread(const double *x, double volume);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
