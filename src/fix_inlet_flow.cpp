@@ -16,6 +16,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -44,13 +45,7 @@ FixInletFlow::FixInletFlow(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   time_depend = 1;
 
   parse(narg, arg);
-  state.next = std::visit(
-      [this](const auto &law) {
-        return law.draw([this] {
-          return uniform();
-        });
-      },
-      diameters);
+  state.next = draw_diameter();
 }
 
 FixInletFlow::~FixInletFlow() = default;
@@ -98,54 +93,6 @@ apf::InletPlane FixInletFlow::rectangle() const
   }
   if (domain->dimension == 2) plane.lo[1] = plane.hi[1] = 0.0;
   return plane;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixInletFlow::check_plane() const
-{
-  static const char axes[] = "xyz";
-  const double *lo = domain->boxlo, *hi = domain->boxhi;
-  auto shrinks = [this](int axis) {
-    return domain->boundary[axis][0] > 1 || domain->boundary[axis][1] > 1;
-  };
-  if (!shrinks(dim)) {
-    if (position < lo[dim] || position > hi[dim])
-      error->all(FLERR, Error::NOLASTLINE,
-                 "{} plane {} = {} must lie within the box, which is {} to {}", command, axes[dim],
-                 position, lo[dim], hi[dim]);
-    if (!domain->periodicity[dim] && position == (sign > 0.0 ? hi[dim] : lo[dim]))
-      error->all(FLERR, Error::NOLASTLINE,
-                 "{} particles that enter along {}{} at {} would leave the box; write {}{}",
-                 command, sign > 0.0 ? "" : "-", axes[dim], position, sign > 0.0 ? "-" : "",
-                 axes[dim]);
-  }
-
-  const auto plane = rectangle();
-  const double largest = std::visit(
-      [](const auto &law) {
-        return law.largest();
-      },
-      diameters);
-  for (int k = 0; k < 2; k++) {
-    if (plane.flat(k) && domain->dimension == 2) continue;
-    const int axis = plane.across[k];
-    const bool follows_box = std::isnan(window[k][0]) || std::isnan(window[k][1]);
-    if (shrinks(axis)) {
-      if (follows_box)
-        error->all(FLERR, Error::NOLASTLINE,
-                   "{} needs keyword window with bounds along {}, where the box is shrink-wrapped",
-                   command, axes[axis]);
-    } else if (plane.lo[k] < lo[axis] || plane.hi[k] > hi[axis])
-      error->all(FLERR, Error::NOLASTLINE,
-                 "{} window along {} must lie within the box, {} to {}, got {} to {}", command,
-                 axes[axis], lo[axis], hi[axis], plane.lo[k], plane.hi[k]);
-    if (!(largest < plane.width(k)))
-      error->all(FLERR, Error::NOLASTLINE,
-                 "{} particles must be smaller than the window, which is {} wide along {}, got a "
-                 "diameter of {}",
-                 command, plane.width(k), axes[axis], largest);
-  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -229,6 +176,36 @@ double FixInletFlow::uniform()
   return random->uniform();
 }
 
+double FixInletFlow::draw_diameter()
+{
+  auto numbers = [this] {
+    return uniform();
+  };
+  return std::visit(
+      [&](const auto &law) {
+        return law.draw(numbers);
+      },
+      diameters);
+}
+
+double FixInletFlow::smallest() const
+{
+  return std::visit(
+      [](const auto &law) {
+        return law.smallest();
+      },
+      diameters);
+}
+
+double FixInletFlow::largest() const
+{
+  return std::visit(
+      [](const auto &law) {
+        return law.largest();
+      },
+      diameters);
+}
+
 // what a particle takes of the space of the flow: its volume, in 2-D its area
 double FixInletFlow::size(double d) const
 {
@@ -294,12 +271,7 @@ void FixInletFlow::remove_left()
 void FixInletFlow::insert()
 {
   forget_ghosts();
-  const double largest = std::visit(
-      [](const auto &law) {
-        return law.largest();
-      },
-      diameters);
-  auto grid = near_plane(largest);
+  auto grid = near_plane();
   const auto first = static_cast<tagint>(state.newest) + 1;
 
   std::vector<Particle> entered;
@@ -314,13 +286,7 @@ void FixInletFlow::insert()
     state.owed -= share(state.next);
     state.volume += size(state.next);
     state.mass += density * MY_PI / 6.0 * state.next * state.next * state.next;
-    state.next = std::visit(
-        [this](const auto &law) {
-          return law.draw([this] {
-            return uniform();
-          });
-        },
-        diameters);
+    state.next = draw_diameter();
   }
   state.inserted += static_cast<double>(entered.size());
   if (static_cast<double>(entered.size()) + state.newest >= MAXTAGINT)
@@ -351,7 +317,7 @@ void FixInletFlow::renew_map()
    all particles that one may touch that enters now, of all ranks; also finds the highest ID
 ------------------------------------------------------------------------- */
 
-apf::SphereGrid FixInletFlow::near_plane(double largest)
+apf::SphereGrid FixInletFlow::near_plane()
 {
   const auto &plane = inflow.rectangle();
   double biggest = 0.0;
@@ -360,15 +326,16 @@ apf::SphereGrid FixInletFlow::near_plane(double largest)
   const int nlocal = atom->nlocal;
   for (int i = 0; i < nlocal; i++) {
     newest = MAX(newest, atom->tag[i]);
-    const double reach = 0.5 * largest + atom->radius[i] + gap + travel();
-    double d[3] = {};
-    d[dim] = atom->x[i][dim] - position;
+    const double reach = 0.5 * largest() + atom->radius[i] + gap + travel();
+    auto away = [&](int axis, double from) {
+      const double d = atom->x[i][axis] - from;
+      return std::fabs(domain->periodicity[axis] ? std::remainder(d, domain->prd[axis]) : d);
+    };
+    bool near = away(dim, position) < reach;
     for (int k = 0; k < 2; k++)
-      d[plane.across[k]] = atom->x[i][plane.across[k]] - 0.5 * (plane.lo[k] + plane.hi[k]);
-    domain->minimum_image(FLERR, d[0], d[1], d[2]);
-    bool near = std::fabs(d[dim]) < reach;
-    for (int k = 0; k < 2; k++)
-      near = near && std::fabs(d[plane.across[k]]) <= 0.5 * (plane.hi[k] - plane.lo[k]) + reach;
+      near = near &&
+          away(plane.across[k], 0.5 * (plane.lo[k] + plane.hi[k])) <=
+              0.5 * (plane.hi[k] - plane.lo[k]) + reach;
     if (near)
       mine.insert(mine.end(), {atom->x[i][0], atom->x[i][1], atom->x[i][2], atom->radius[i]});
   }
@@ -391,7 +358,7 @@ apf::SphereGrid FixInletFlow::near_plane(double largest)
   const double period[3] = {domain->periodicity[0] * domain->prd[0],
                             domain->periodicity[1] * domain->prd[1],
                             domain->periodicity[2] * domain->prd[2]};
-  apf::SphereGrid grid(period, 0.5 * largest + std::max(biggest, 0.5 * largest) + gap);
+  apf::SphereGrid grid(period, 0.5 * largest() + std::max(biggest, 0.5 * largest()) + gap);
   for (size_t k = 0; k < all.size(); k += 4) grid.add(&all[k], all[k + 3]);
   return grid;
 }
@@ -446,9 +413,21 @@ bool FixInletFlow::fits(const double *entry, const Particle &particle) const
     if (domain->boundary[c][0] == 1 && particle.x[c] < domain->boxlo[c]) return false;
     if (domain->boundary[c][1] == 1 && particle.x[c] >= domain->boxhi[c]) return false;
   }
-  for (const auto *wall : walls)
-    if (wall->distance(particle.x) < particle.radius + gap) return false;
-  return true;
+  return clearance(particle.x) >= particle.radius + gap;
+}
+
+// distance from the nearest wall
+double FixInletFlow::clearance(const double *x) const
+{
+  double nearest = std::numeric_limits<double>::max();
+  for (const auto *wall : walls) nearest = std::min(nearest, wall->distance(x));
+  if (!field->has_distance()) return nearest;
+  apf::PointBlock point;
+  apf::Lanes of_flow;
+  point.n = 1;
+  point.set(0, x);
+  field->distance(point, of_flow);
+  return std::min(nearest, of_flow[0]);
 }
 
 /* ----------------------------------------------------------------------
@@ -535,23 +514,13 @@ double FixInletFlow::compute_vector(int n)
 void *FixInletFlow::extract(const char *name, int &dim)
 {
   if (dim != type) return nullptr;
-  const double r_lo = 0.5 *
-      std::visit(
-                          [](const auto &law) {
-                            return law.smallest();
-                          },
-                          diameters);
+  const double r = 0.5 * smallest();
   if (strcmp(name, "radius") == 0)
-    extracted = 0.5 *
-        std::visit(
-                    [](const auto &law) {
-                      return law.largest();
-                    },
-                    diameters);
+    extracted = 0.5 * largest();
   else if (strcmp(name, "smallest_radius") == 0)
-    extracted = r_lo;
+    extracted = r;
   else if (strcmp(name, "smallest_mass") == 0)
-    extracted = 4.0 / 3.0 * MY_PI * r_lo * r_lo * r_lo * density;
+    extracted = 4.0 / 3.0 * MY_PI * r * r * r * density;
   else
     return nullptr;
   dim = 0;

@@ -85,6 +85,7 @@ class FixInletFlow : public Fix {
   int parse_number(int iarg, int narg, char **arg);
   int parse_window(int iarg, int narg, char **arg);
   int parse_diameter(int iarg, int narg, char **arg);
+  int parse_lognormal(int iarg, int narg, char **arg);
   int parse_list(int iarg, int narg, char **arg);
   int parse_outlet(int iarg, int narg, char **arg);
   int parse_axis(int iarg, char **arg, const char *what, double &direction);
@@ -95,14 +96,18 @@ class FixInletFlow : public Fix {
   void check_plane() const;
   void measure();
   double uniform();
+  double draw_diameter();
+  double smallest() const;
+  double largest() const;
   double size(double diameter) const;
   double share(double diameter) const;
   double mean_size() const;
   double travel() const;
   void remove_left();
   void insert();
-  apf::SphereGrid near_plane(double reach);
+  apf::SphereGrid near_plane();
   bool place(Particle &, const apf::SphereGrid &);
+  double clearance(const double *x) const;
   bool fits(const double *entry, const Particle &) const;
   apf::Vec3 fluid_at(const double *x, apf::Vec3 *spin) const;
   bool is_mine(const double *x) const;

@@ -131,7 +131,7 @@ int FixInletFlow::parse_window(int iarg, int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   diameter D | uniform LO HI | lognormal MEDIAN GSD LO HI | poly number|volume N d f ...
+   diameter D | uniform LO HI | lognormal MEDIAN GSD [LO HI] | poly number|volume N d f ...
 ------------------------------------------------------------------------- */
 
 int FixInletFlow::parse_diameter(int iarg, int narg, char **arg)
@@ -149,26 +149,38 @@ int FixInletFlow::parse_diameter(int iarg, int narg, char **arg)
     diameters = apf::UniformDiameters{lo, hi};
     return iarg + 4;
   }
-  if (law == "lognormal") {
-    need(6);
-    const apf::LognormalDiameters lognormal{
-        positive(iarg + 2, arg, "median diameter"), positive(iarg + 3, arg, "geometric deviation"),
-        positive(iarg + 4, arg, "diameter"), positive(iarg + 5, arg, "diameter")};
-    if (!(lognormal.gsd > 1.0))
-      error->all(FLERR, iarg + 3, "{} geometric standard deviation must be > 1, got {}", command,
-                 arg[iarg + 3]);
-    check_order(iarg + 5, arg, lognormal.lo, lognormal.hi);
-    if (lognormal.kept() < 0.01)
-      error->all(FLERR, iarg + 4,
-                 "{} bounds {} and {} must keep at least 1 % of the lognormal distribution, got "
-                 "{:.3g} %",
-                 command, arg[iarg + 4], arg[iarg + 5], 100.0 * lognormal.kept());
-    diameters = lognormal;
-    return iarg + 6;
-  }
+  if (law == "lognormal") return parse_lognormal(iarg, narg, arg);
   if (law == "poly") return parse_list(iarg, narg, arg);
   diameters = apf::OneDiameter{positive(iarg + 1, arg, "diameter")};
   return iarg + 2;
+}
+
+// cut at three geometric standard deviations if not told
+int FixInletFlow::parse_lognormal(int iarg, int narg, char **arg)
+{
+  if (iarg + 4 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow diameter lognormal", error);
+  apf::LognormalDiameters law{};
+  law.median = positive(iarg + 2, arg, "median diameter");
+  law.gsd = positive(iarg + 3, arg, "geometric deviation");
+  if (!(law.gsd > 1.0))
+    error->all(FLERR, iarg + 3, "{} geometric standard deviation must be > 1, got {}", command,
+               arg[iarg + 3]);
+  law.lo = law.median / std::pow(law.gsd, 3);
+  law.hi = law.median * std::pow(law.gsd, 3);
+  diameters = law;
+  if (iarg + 4 == narg || !utils::is_double(arg[iarg + 4])) return iarg + 4;
+
+  if (iarg + 6 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow diameter lognormal", error);
+  law.lo = positive(iarg + 4, arg, "diameter");
+  law.hi = positive(iarg + 5, arg, "diameter");
+  check_order(iarg + 5, arg, law.lo, law.hi);
+  if (law.kept() < 0.01)
+    error->all(FLERR, iarg + 4,
+               "{} bounds {} and {} must keep at least 1 % of the lognormal distribution, got "
+               "{:.3g} %",
+               command, arg[iarg + 4], arg[iarg + 5], 100.0 * law.kept());
+  diameters = law;
+  return iarg + 6;
 }
 
 int FixInletFlow::parse_list(int iarg, int narg, char **arg)
@@ -216,6 +228,12 @@ int FixInletFlow::parse_outlet(int iarg, int narg, char **arg)
   Outlet outlet{};
   outlet.dim = parse_axis(iarg + 1, arg, "outlet", outlet.sign);
   outlet.position = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+  if (outlet.dim == dim && outlet.sign * (position - outlet.position) >= 0.0)
+    error->all(
+        FLERR, iarg + 2,
+        "{} outlet at {}, which deletes what is beyond it along {}, would delete what enters "
+        "at {}",
+        command, arg[iarg + 2], arg[iarg + 1], arg[4]);
   outlets.push_back(outlet);
   return iarg + 3;
 }
@@ -230,13 +248,53 @@ void FixInletFlow::check_required() const
   require(concentration > 0.0 || number > 0.0, "concentration or number");
   if (concentration > 0.0 && number > 0.0)
     error->all(FLERR, "{} takes keyword concentration or number, not both", command);
-  const double smallest = std::visit(
-      [](const auto &law) {
-        return law.smallest();
-      },
-      diameters);
-  require(smallest > 0.0, "diameter");
+  require(smallest() > 0.0, "diameter");
   require(density > 0.0, "density");
   require(type > 0, "type");
   require(random != nullptr, "seed");
+}
+
+/* ----------------------------------------------------------------------
+   plane and window in the box as it is when a run begins
+------------------------------------------------------------------------- */
+
+void FixInletFlow::check_plane() const
+{
+  static const char axes[] = "xyz";
+  const double *lo = domain->boxlo, *hi = domain->boxhi;
+  auto shrinks = [this](int axis) {
+    return domain->boundary[axis][0] > 1 || domain->boundary[axis][1] > 1;
+  };
+  if (!shrinks(dim)) {
+    if (position < lo[dim] || position > hi[dim])
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} plane {} = {} must lie within the box, which is {} to {}", command, axes[dim],
+                 position, lo[dim], hi[dim]);
+    if (!domain->periodicity[dim] && position == (sign > 0.0 ? hi[dim] : lo[dim]))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} particles that enter along {}{} at {} would leave the box; write {}{}",
+                 command, sign > 0.0 ? "" : "-", axes[dim], position, sign > 0.0 ? "-" : "",
+                 axes[dim]);
+  }
+
+  const auto plane = rectangle();
+  for (int k = 0; k < 2; k++) {
+    if (plane.flat(k) && domain->dimension == 2) continue;
+    const int axis = plane.across[k];
+    const bool follows_box = std::isnan(window[k][0]) || std::isnan(window[k][1]);
+    if (shrinks(axis)) {
+      if (follows_box)
+        error->all(FLERR, Error::NOLASTLINE,
+                   "{} needs keyword window with bounds along {}, where the box is shrink-wrapped",
+                   command, axes[axis]);
+    } else if (plane.lo[k] < lo[axis] || plane.hi[k] > hi[axis])
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} window along {} must lie within the box, {} to {}, got {} to {}", command,
+                 axes[axis], lo[axis], hi[axis], plane.lo[k], plane.hi[k]);
+    if (!(largest() < plane.width(k)))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} particles must be smaller than the window, which is {} wide along {}, got a "
+                 "diameter of {}",
+                 command, plane.width(k), axes[axis], largest());
+  }
 }

@@ -2,6 +2,7 @@
 // fluid's own motion; and every number is accounted for, on any number of ranks and over a restart.
 
 #include "scenes.h"
+#include "vtkhdf_writer.h"
 
 #include <algorithm>
 #include <array>
@@ -184,6 +185,8 @@ TEST(Inlet, diameters_follow_their_law)
   const std::vector<Case> cases = {
       {"uniform 0.1 0.3", 0.01, 0.2},
       {"lognormal 0.1 1.3 0.01 1.0", 1e-3 * std::exp(4.5 * s2), 0.1 * std::exp(0.5 * s2)},
+      {"lognormal 0.1 1.2", 1e-3 * std::exp(4.5 * std::pow(std::log(1.2), 2)),
+       0.1 * std::exp(0.5 * std::pow(std::log(1.2), 2))},
       {"poly volume 2 0.1 0.5 0.2 0.5", (8.0 * 0.001 + 0.008) / 9.0, (8.0 * 0.1 + 0.2) / 9.0}};
   for (const auto &one : cases) {
     Simulation sim;
@@ -275,6 +278,106 @@ TEST(Inlet, works_with_sub_stepped_contacts)
   EXPECT_EQ(sim.value("f_move[5]"), 0.0) << "no contact was found late";
 }
 
+TEST(Inlet, flow_that_pulsates_and_turns_back)
+{
+  // u < 0 in a part of its period of 100 steps; what enters within a step follows its beginning
+  Simulation sim;
+  sim.run(box() +
+          "variable u equal 1.0+1.5*sin(2*PI*step*0.01)\nfix air all flow/field uniform v_u "
+          "0 0" +
+          fluid + "fix in all inlet/flow x 1 air concentration 0.05" + particle +
+          "\nfix drag all flow/force air drag stokes\nrun 300\n");
+  double sum = 0.0;
+  for (int n = 0; n < 300; n++) sum += std::max(1.0 + 1.5 * std::sin(2.0 * pi * 0.01 * n), 0.0);
+  EXPECT_NEAR(sim.value("f_in[7]"), 5.0 * sum / 300.0, 1e-9);
+  EXPECT_LE(sim.value("f_in[4]"), 5.0 * sum * 0.01);
+  EXPECT_GT(sim.value("f_in[4]"), 5.0 * sum * 0.01 - 2.0 * pi / 6.0 * 0.125);
+}
+
+TEST(Inlet, fractions_of_a_number_and_moments_between_insertions)
+{
+  Simulation sim;
+  sim.run(box() + uniform + "fix in all inlet/flow x 0 air number 7.5 every 20" + particle +
+          "\nrun 199\n");
+  EXPECT_EQ(sim.value("f_in[1]"), 67.0);
+  EXPECT_NEAR(sim.value("f_in[5]"), 0.5, 1e-12);
+  EXPECT_NEAR(sim.value("f_in[6]"), 7.5 * pi / 6.0 * 0.125 / 0.2, 1e-12);
+  sim.run("run 1\n");
+  EXPECT_EQ(sim.value("f_in[1]"), 75.0);
+  const auto x = inside(sim).x;    // all along the way of 200 steps, not in ten sheets
+  double mean = 0.0, square = 0.0;
+  for (int i = 0; i < 75; i++) {
+    mean += std::fmod(x[3 * i] / 0.2, 1.0) / 75.0;
+    square += std::pow(x[3 * i] / 2.0, 2) / 75.0;
+  }
+  EXPECT_NEAR(mean, 0.5, 4.0 / std::sqrt(12.0 * 75.0));
+  EXPECT_NEAR(square, 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / 75.0));
+}
+
+// A large sphere stands in the way until the flow carries it off.
+TEST(Inlet, what_is_due_enters_later)
+{
+  Simulation sim;
+  sim.run(box() + uniform +
+          "create_atoms 1 single 0.2 5 5\nset atom 1 diameter 3.8 density 1\n"
+          "fix in all inlet/flow x 0 air concentration 0.08 window 3.2 6.8 3.2 6.8 diameter 1.0 "
+          "density 2 type 1 seed 4711\nvelocity all set 0 0 0\nrun 200\n");
+  const double due = 0.08 * 3.6 * 3.6 / (pi / 6.0);    // per time
+  EXPECT_EQ(sim.value("f_in[1]"), 0.0);
+  EXPECT_NEAR(sim.value("f_in[5]"), 2.0 * due, 1e-9);
+  EXPECT_GT(sim.value("f_in[2]"), 1000.0);
+  sim.run("velocity all set 1 0 0\nrun 1200\n");
+  EXPECT_EQ(sim.value("f_in[1]"), std::floor(14.0 * due));
+  EXPECT_LT(sim.value("f_in[5]"), 1.0);
+  EXPECT_GE(smallest_gap(sim, periodic_yz), -1e-12);
+}
+
+// Free fall from rest: a particle that inherited the force of another, of up to 64 times its mass,
+// would show. The gap keeps them apart.
+TEST(Inlet, respa_gives_no_forces_of_others)
+{
+  Simulation sim;
+  sim.run(box() + uniform +
+          "fix in all inlet/flow x 0 air concentration 0.05 diameter uniform 0.2 0.8 density 2 "
+          "type 1 seed 4711 gap 0.1 outlet x 3\nfix fall all gravity 0.01 vector 0 0 -1\n"
+          "fix_modify fall respa 1\n"
+          "run_style respa 2 4\nrun 600\n");
+  EXPECT_NEAR(sim.value("f_in[4]"), 30.0, pi / 6.0 * 0.512);
+  EXPECT_EQ(sim.value("f_in[1]"), sim.value("f_in[9]") + sim.value("atoms"));
+  EXPECT_GT(sim.value("f_in[9]"), 100.0);
+  const auto x = inside(sim).x, v = inside(sim).v;
+  for (size_t i = 0; i < v.size(); i += 3) {
+    EXPECT_NEAR(v[i], 1.0, 1e-12);
+    EXPECT_NEAR(v[i + 2], -0.01 * x[i], 0.01 * 1.5 * 0.01);    // within a step and a half
+  }
+}
+
+TEST(Inlet, walls_that_the_file_of_the_flow_knows)
+{
+  const std::string file = scratch_file("slit.vtkhdf");
+  {
+    VtkhdfWriter writer(file, {3, 21, 3}, {0, 0, 0}, {10, 0.5, 5});
+    writer.field("velocity", 3, [](const double *x, double, double *u) {
+      u[0] = std::max(1.0 - std::fabs(x[1] - 5.0) / 3.0, 0.0);
+    });
+    writer.field("distance", 1, [](const double *x, double, double *d) {
+      d[0] = 3.0 - std::fabs(x[1] - 5.0);
+    });
+  }
+  Simulation sim;
+  sim.run(box() + "fix air all flow/field file " + file + fluid +
+          "fix in all inlet/flow x 0 air number 150 every 1" + particle +
+          "\ntimestep 1.0\nrun 1\n");
+  std::filesystem::remove(file);
+  ASSERT_EQ(sim.value("f_in[1]"), 150.0);
+  double farthest = 0.0;
+  const auto x = inside(sim).x;
+  for (size_t i = 0; i < x.size() / 3; i++)
+    farthest = std::max(farthest, std::fabs(x[3 * i + 1] - 5.0));
+  EXPECT_LE(farthest, 2.75 + 1e-9);
+  EXPECT_GT(farthest, 2.3);
+}
+
 namespace {
 const std::string shared_scene = box("p p", "") + "fix air all flow/field channel x y 0 10 3" +
     fluid +
@@ -332,6 +435,51 @@ TEST(RanksInlet, the_same_particles_enter_on_any_number_of_ranks)
   EXPECT_GT(counts[8], 0.0) << "some have left";
 }
 
+// The same where the box shrinks onto the particles, tiles are balanced, and a run is resumed
+TEST(RanksInlet, shrink_wrapped_box_tiles_and_restart)
+{
+  const std::string scene = "comm_style tiled\ncomm_modify vel yes\n"
+                            "fix air all flow/field uniform -1 0 0" +
+      fluid +
+      "fix in all inlet/flow -x 15 air concentration 0.08 diameter uniform 0.4 0.8 density 2 "
+      "type 1 seed 5 outlet -x 12 window 3 9 3 9\nfix even all balance 50 1.0 rcb\n";
+  std::string shrinks = box();
+  shrinks.replace(shrinks.find("boundary f"), 10, "boundary s");
+  const std::string ends = "create_atoms 1 single 20 1 1\ncreate_atoms 1 single 14 1 1\n"
+                           "set group all diameter 0.5 density 2\n";
+  Inside alone;
+  std::vector<double> counts;
+  auto count = [](Simulation &sim) {
+    std::vector<double> all;
+    for (int n = 1; n <= 10; n++) all.push_back(sim.value("f_in[" + std::to_string(n) + "]"));
+    return all;
+  };
+  {
+    Simulation sim({}, MPI_COMM_SELF);
+    sim.run(shrinks + scene + ends + "run 233\nrun 267\n");
+    alone = inside(sim);
+    counts = count(sim);
+  }
+  const std::string file = scratch_file("restart");
+  {
+    Simulation sim;
+    sim.run(shrinks + scene + ends + "run 233\nwrite_restart " + file);
+  }
+  Simulation sim;
+  sim.run("read_restart " + file + "\n" + box().substr(box().find("neighbor 0.3")) + scene +
+          "run 267\n");
+  MPI_Barrier(MPI_COMM_WORLD);
+  std::filesystem::remove(file);
+  const auto all = inside(sim);
+  ASSERT_GT(all.tag.size(), 60u);
+  EXPECT_EQ(all.tag, alone.tag);
+  EXPECT_EQ(all.radius, alone.radius);
+  EXPECT_LT(difference(all.x, alone.x), 1e-12);
+  const auto again = count(sim);
+  for (int n = 0; n < 10; n++) EXPECT_NEAR(again[n], counts[n], 1e-12 * counts[n]) << n;
+  EXPECT_GT(counts[8], 30.0);
+}
+
 TEST(RanksInlet, dense_inlet_has_no_overlap_across_ranks)
 {
   Simulation sim;
@@ -370,6 +518,8 @@ TEST(InletErrors, name_what_is_wrong)
       {"x 0 air attempts 0", "attempts must be >= 1, got 0"},
       {"x 0 air window 3 2 NULL NULL", "must be > lower bound 3, got 2"},
       {"x 0 air outlet q 3", "outlet must be"},
+      {"x 0 air outlet x -1", "would delete what enters at 0"},
+      {"x 0 air diameter lognormal 0.2 1.1 2", "missing argument"},
       {"x 0 air speed 3", "keyword must be"},
       {"x 0 wind" + good + "\nrun 0", "fix wind does not exist"},
       {"x 0 move" + good + "\nrun 0", "must be of style flow/field, got nve/sphere"},
