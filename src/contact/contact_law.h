@@ -80,6 +80,11 @@ template <class Frame> struct ContactOutput {
 // How vectors of the contact plane follow the pair through a step.
 template <class Frame> struct Turning {
   using Tangent = typename Frame::Tangent;
+  static APF_INLINE Turning of(const Frame &, const Frame &, const ContactInput<Frame> &, double,
+                               const ContactMemory<Frame> &)
+  {
+    return {};
+  }
   // the tangent itself turns
   APF_INLINE Tangent slip(const Tangent &t) const { return t; }
   APF_INLINE Tangent memory(const Tangent &t) const { return t; }
@@ -101,6 +106,16 @@ template <class Real> struct Turning<SpaceFrame<Real>> {
     invert(per_mid, per_last, inv);
     cosine = (1.0 - q) * inv;
     sine = angle * inv;
+  }
+  // from the frames of now and of mid-step; the memory gets the present normal
+  using Frame = SpaceFrame<Real>;
+  static APF_INLINE Turning of(const Frame &now, const Frame &mid, const ContactInput<Frame> &in,
+                               double advance, ContactMemory<Frame> &memory)
+  {
+    // no normal in the contact's first step
+    const auto last = select(norm2(memory.normal) < 0.5, now.n, memory.normal);
+    memory.normal = now.n;
+    return {now.n, mid.n, last, 0.5 * advance * dot(in.spin_i + in.spin_j, now.n)};
   }
   // a slip velocity of mid-step, by the smallest rotation to the present normal
   APF_INLINE Vector slip(const Vector &t) const { return t - (dot(n, t) * per_mid) * from_mid; }
@@ -172,17 +187,7 @@ APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Re
   out.force = (-(elastic + damping)) * frame.n;
   if constexpr (!sliding && !rolling) return out;
 
-  Turning<Frame> turning = [&] {
-    if constexpr (Frame::planar) {
-      return Turning<Frame>();
-    } else {
-      // no normal in the contact's first step
-      const auto last = select(norm2(memory.normal) < 0.5, frame.n, memory.normal);
-      memory.normal = frame.n;
-      const Real angle = 0.5 * times.advance * dot(in.spin_i + in.spin_j, frame.n);
-      return Turning<Frame>(frame.n, mid.n, last, angle);
-    }
-  }();
+  const auto turning = Turning<Frame>::of(frame, mid, in, times.advance, memory);
 
   // levers to the middle of the overlap (at a wall: to the wall): they add up to the distance, so
   // the pair's angular momentum is kept and a rigid rotation slides nothing

@@ -87,6 +87,20 @@ template <class Real> struct Vector3 {
 using Vec2 = Vector2<double>;
 using Vec3 = Vector3<double>;
 
+// Roots and reciprocals where four digits do; a Pack may have quicker ones.
+APF_INLINE double rough_root(double a)
+{
+  return std::sqrt(a);
+}
+APF_INLINE double rough_inverse(double a)
+{
+  return 1.0 / a;
+}
+APF_INLINE double inverse(double a)
+{
+  return 1.0 / a;
+}
+
 // Reciprocals of all at once by one division: that costs as much as a dozen products, and binds the
 // kernel.
 template <class Real> APF_INLINE void invert(Real &a, Real &b)
