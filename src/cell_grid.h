@@ -48,9 +48,9 @@ class CellGrid {
   void sum_ghosts();     // values of ghosts are added to those of their owners
   void fill_ghosts();    // ghosts get the values of their owners
 
-  // Weights of trilinear interpolation between centres of cells, in two dimensions bilinear: of cell
-  // base and the next along each axis. Beyond the centres at a border the outermost cells count.
-  // False if the point is beyond the cells of this rank.
+  // Weights of trilinear interpolation between centres of cells, in two dimensions bilinear: of
+  // cell base and the next along each axis. Beyond the centres at a border the outermost cells
+  // count. False if the point is beyond the cells of this rank.
   bool trilinear(const double *x, int *base, double *weight) const;
   int next(int c, int cell) const { return n[c] > 1 || periodic[c] ? cell + 1 : cell; }
 

@@ -28,8 +28,8 @@ struct CloudWeights {
   int first = 0;
   std::vector<double> w;
 
-  // at: position of the particle, in cells; radius: R over the spacing; cells from lowest to highest
-  // are there to take the cloud
+  // at: position of the particle, in cells; radius: R over the spacing; cells from lowest to
+  // highest are there to take the cloud
   void set(double at, double radius, int lowest, int highest)
   {
     const int cell = static_cast<int>(std::floor(at)), reach = cloud_cells(radius, 1.0);

@@ -1,6 +1,6 @@
 // Lift, Magnus, added mass, pressure gradient, Brownian motion and slip through LAMMPS. Facts:
 // drift velocities, an independent Runge-Kutta integration of Maxey and Riley's equation,
-// Einstein's diffusion, equipartition, balance of momentum, velocity Verlet against collision steps.
+// Einstein's diffusion, equipartition, balance of momentum, collision steps.
 
 #include "comm.h"
 #include "scenes.h"
