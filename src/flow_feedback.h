@@ -1,7 +1,7 @@
 // Reaction of particles on the fluid, IIHR Report 459, eq (12): the force of each is shared out
-// among the nodes around it, here the centres of the cells of a grid, in the proportion of trilinear
-// interpolation. Divided by the volume of a cell it is the body force of the Navier-Stokes
-// equations.
+// among the nodes around it, here the centres of the cells of a grid, in the proportion of
+// trilinear interpolation. Divided by the volume of a cell it is the body force of the
+// Navier-Stokes equations.
 
 #ifndef APF_FLOW_FEEDBACK_H
 #define APF_FLOW_FEEDBACK_H
