@@ -1,0 +1,300 @@
+// The program: files that VTK wrote, and a case that OpenFOAM computed, come out as VTKHDF that VTK
+// and APF read; wrong input gives a message and an exit code.
+
+#include "flow/vtkhdf_file.h"
+#include "meshes.h"
+
+#include "gtest/gtest.h"
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkHDFReader.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkStructuredGrid.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLImageDataWriter.h>
+#include <vtkXMLMultiBlockDataWriter.h>
+#include <vtkXMLStructuredGridWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace flowgrid;
+namespace fs = std::filesystem;
+
+namespace {
+
+// a folder that goes when the test ends
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("flowgrid-test-" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const std::string &name) const { return (path / name).string(); }
+};
+
+struct Result {
+  int status;
+  std::string text;
+};
+Result flowgrid_with(const std::string &words)
+{
+  FILE *pipe = popen((std::string(FLOWGRID) + " " + words + " 2>&1").c_str(), "r");
+  std::string text;
+  char line[512];
+  while (fgets(line, sizeof(line), pipe)) text += line;
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+}
+
+Point velocity(const double *x)
+{
+  return {1.0 + x[1], 0.5 * x[2] - x[0], 0.25};
+}
+double pressure(const double *x)
+{
+  return 3.0 - x[0] + 2.0 * x[1];
+}
+
+template <class DataSet> void set_fields(DataSet *set)
+{
+  vtkNew<vtkDoubleArray> u, p;
+  u->SetName("U");
+  u->SetNumberOfComponents(3);
+  p->SetName("p");
+  for (vtkIdType k = 0; k < set->GetNumberOfPoints(); k++) {
+    double x[3];
+    set->GetPoint(k, x);
+    u->InsertNextTuple(velocity(x).data());
+    p->InsertNextValue(pressure(x));
+  }
+  set->GetPointData()->AddArray(u);
+  set->GetPointData()->AddArray(p);
+}
+
+// a distorted structured block, shifted along x
+vtkSmartPointer<vtkStructuredGrid> block(int n, double shift)
+{
+  auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int k = 0; k <= n; k++)
+    for (int j = 0; j <= n; j++)
+      for (int i = 0; i <= n; i++) {
+        Point x = bend({double(i) / n, double(j) / n, double(k) / n});
+        x[0] += shift;
+        points->InsertNextPoint(x.data());
+      }
+  grid->SetDimensions(n + 1, n + 1, n + 1);
+  grid->SetPoints(points);
+  set_fields(grid.Get());
+  return grid;
+}
+
+// the linear fields above at every node that is inside, read by APF's reader; how many there were
+int expect_linear(const std::string &file, int frame = 0, double scale = 1.0)
+{
+  const apf::VtkhdfFile hdf(file);
+  const auto &g = hdf.grid();
+  const auto u = hdf.read("velocity", 3, frame, g.n[2]), p = hdf.read("pressure", 1, frame, g.n[2]),
+             inside = hdf.read("inside", 1, frame, g.n[2]);
+  int count = 0;
+  for (size_t node = 0; node < g.nodes(); node++) {
+    const size_t at[3] = {node % g.n[0], node / g.n[0] % g.n[1], node / g.n[0] / g.n[1]};
+    double x[3];
+    for (int c = 0; c < 3; c++) x[c] = (g.origin[c] + at[c] * g.spacing[c]) / scale;
+    if (inside[node] == 0.0) {
+      EXPECT_EQ(u[3 * node], 0.0);
+      continue;
+    }
+    count++;
+    for (int c = 0; c < 3; c++) EXPECT_NEAR(u[3 * node + c], velocity(x)[c], 1e-12);
+    EXPECT_NEAR(p[node], pressure(x), 1e-12);
+  }
+  return count;
+}
+
+}    // namespace
+
+TEST(Program, maps_a_structured_grid_and_two_blocks_of_it)
+{
+  const Folder folder;
+  vtkNew<vtkXMLStructuredGridWriter> one;
+  one->SetFileName((folder / "one.vts").c_str());
+  one->SetInputData(block(5, 0.0));
+  one->Write();
+  auto run = flowgrid_with(folder / "one.vts" + " " + (folder / "one.vtkhdf") + " --spacing 0.1");
+  EXPECT_EQ(run.status, 0) << run.text;
+  EXPECT_EQ(expect_linear(folder / "one.vtkhdf"), 11 * 11 * 11);
+
+  vtkNew<vtkMultiBlockDataSet> both;
+  both->SetBlock(0, block(5, 0.0));
+  both->SetBlock(1, block(5, 1.0));
+  vtkNew<vtkXMLMultiBlockDataWriter> writer;
+  writer->SetFileName((folder / "both.vtm").c_str());
+  writer->SetInputData(both);
+  writer->Write();
+  run = flowgrid_with((folder / "both.vtm") + " " + (folder / "both.vtkhdf") +
+                      " --spacing 0.1 0.2 0.25 --compress");
+  EXPECT_EQ(run.status, 0) << run.text;
+  EXPECT_NE(run.text.find("21 x 6 x 5 nodes, 630 inside"), std::string::npos) << run.text;
+  EXPECT_EQ(expect_linear(folder / "both.vtkhdf"), 630);
+}
+
+TEST(Program, vtk_reads_what_it_writes)
+{
+  const Folder folder;
+  vtkNew<vtkXMLStructuredGridWriter> one;
+  one->SetFileName((folder / "one.vts").c_str());
+  one->SetInputData(block(5, 0.0));
+  one->Write();
+  for (const std::string &more : {std::string(""), std::string(" --planar 0.5")}) {
+    const auto run = flowgrid_with(folder / "one.vts" + " " + (folder / "one.vtkhdf") +
+                                   " --spacing 0.125 --bounds 0.25 0.75 0 1 0.25 0.75" + more);
+    ASSERT_EQ(run.status, 0) << run.text;
+    vtkNew<vtkHDFReader> reader;
+    reader->SetFileName((folder / "one.vtkhdf").c_str());
+    reader->Update();
+    auto *image = vtkImageData::SafeDownCast(reader->GetOutput());
+    ASSERT_NE(image, nullptr);
+    EXPECT_EQ(image->GetNumberOfPoints(), more.empty() ? 5 * 9 * 5 : 5 * 9 * 2);
+    auto *u = image->GetPointData()->GetArray("velocity");
+    ASSERT_NE(u, nullptr);
+    for (vtkIdType k = 0; k < (more.empty() ? image->GetNumberOfPoints() : 45); k++) {
+      double x[3];
+      image->GetPoint(k, x);
+      if (!more.empty()) EXPECT_EQ(x[2], 0.5);
+      for (int c = 0; c < 3; c++) EXPECT_NEAR(u->GetComponent(k, c), velocity(x)[c], 1e-12);
+    }
+  }
+}
+
+TEST(Program, wedges_and_lengths_to_scale)
+{
+  // a cube of two wedges, in millimetres
+  const Folder folder;
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int k = 0; k < 8; k++) points->InsertNextPoint(k & 1, k >> 1 & 1, k >> 2);
+  grid->SetPoints(points);
+  const vtkIdType a[6] = {0, 1, 2, 4, 5, 6}, b[6] = {1, 3, 2, 5, 7, 6};
+  grid->InsertNextCell(VTK_WEDGE, 6, a);
+  grid->InsertNextCell(VTK_WEDGE, 6, b);
+  set_fields(grid.Get());
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName((folder / "wedges.vtu").c_str());
+  writer->SetInputData(grid);
+  writer->Write();
+  const auto run = flowgrid_with((folder / "wedges.vtu") + " " + (folder / "wedges.vtkhdf") +
+                                 " --spacing 1e-4 --scale 1e-3");
+  EXPECT_EQ(run.status, 0) << run.text;
+  EXPECT_EQ(expect_linear(folder / "wedges.vtkhdf", 0, 1e-3), 1331);
+}
+
+TEST(Program, poiseuille_flow_of_openfoam)
+{
+  // data/poiseuille: icoFoam's result on 16 x 10 cells, 4 long and 1 wide, mean velocity 1
+  const Folder folder;
+  const auto run = flowgrid_with(std::string(FLOWGRID_DATA) + "/poiseuille " +
+                                 (folder / "p.vtkhdf") + " --spacing 0.05 --planar 0.05");
+  ASSERT_EQ(run.status, 0) << run.text;
+  const apf::VtkhdfFile hdf(folder / "p.vtkhdf");
+  const auto &g = hdf.grid();
+  ASSERT_EQ(g.n[0], 81);
+  ASSERT_EQ(g.n[1], 21);
+  const auto u = hdf.read("velocity", 3, 0, 1);
+  double largest = 0.0;
+  for (int j = 0; j < 21; j++) {
+    const double y = 0.05 * j;
+    const double *at = &u[3 * (j * 81 + 75)];
+    EXPECT_NEAR(at[0], 6.0 * y * (1.0 - y), 0.08) << y;
+    EXPECT_NEAR(at[1], 0.0, 0.01) << y;
+    largest = std::max(largest, at[0]);
+    if (j > 1 && j < 19) EXPECT_NEAR(u[3 * j * 81], 1.0, 1e-6) << "inlet, " << y;
+  }
+  EXPECT_NEAR(largest, 1.5, 0.05);
+  for (int i = 0; i < 81; i++) {
+    EXPECT_EQ(u[3 * i], 0.0) << "the wall below rests";
+    EXPECT_NEAR(u[3 * (20 * 81 + i)], 0.0, 1e-14) << "the wall above rests";
+  }
+}
+
+TEST(Program, times_of_a_case_become_a_series)
+{
+  const Folder folder;
+  auto run = flowgrid_with(std::string(FLOWGRID_DATA) + "/poiseuille " + (folder / "all.vtkhdf") +
+                           " --spacing 0.1 --planar 0.05 --times all");
+  ASSERT_EQ(run.status, 0) << run.text;
+  run = flowgrid_with(std::string(FLOWGRID_DATA) + "/poiseuille " + (folder / "last.vtkhdf") +
+                      " --spacing 0.1 --planar 0.05");
+  ASSERT_EQ(run.status, 0) << run.text;
+  const apf::VtkhdfFile all(folder / "all.vtkhdf"), last(folder / "last.vtkhdf");
+  ASSERT_EQ(all.times().size(), 2u);
+  EXPECT_EQ(all.times()[0], 0.0);
+  EXPECT_EQ(all.read("velocity", 3, 1, 1), last.read("velocity", 3, 0, 1));
+  EXPECT_NE(all.read("velocity", 3, 0, 1), last.read("velocity", 3, 0, 1));
+}
+
+TEST(Program, wrong_input_is_named)
+{
+  const Folder folder;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 3, 3);
+  vtkNew<vtkXMLImageDataWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName((folder / "empty.vti").c_str());
+  writer->Write();
+  set_fields(image.Get());
+  writer->SetFileName((folder / "good.vti").c_str());
+  writer->Write();
+  image->GetPointData()->GetArray("U")->SetComponent(5, 1, NAN);
+  writer->SetFileName((folder / "nan.vti").c_str());
+  writer->Write();
+  std::ofstream(folder / "broken.vtu") << "<VTKFile type=\"Unstr";
+  fs::create_directories(folder.path / "nocase");
+
+  const std::string out = " " + (folder / "out.vtkhdf") + " ", good = (folder / "good.vti");
+  struct Row {
+    std::string words;
+    int status;
+    std::string message;
+  };
+  const Row rows[] = {
+      {"", 2, "INPUT and OUTPUT are needed"},
+      {good + out, 2, "--spacing is needed"},
+      {good + out + "--spacing 0", 2, "--spacing must be > 0, got 0"},
+      {good + out + "--spacing x", 2, "takes a number, got x"},
+      {good + out + "--spacing 1 --speed 3", 2, "there is no option --speed"},
+      {good + out + "--spacing 1 --bounds 1 0 0 1 0 1", 2, "along x must not be below"},
+      {good + out + "--spacing 1 --scale -1", 2, "--scale must be > 0, got -1"},
+      {(folder / "none.vtu") + out + "--spacing 1", 1, "none.vtu: does not exist"},
+      {(folder / "empty.vti") + out + "--spacing 1", 1, "has no array U or velocity"},
+      {good + out + "--spacing 1 --velocity W", 1, "there are: U, p"},
+      {good + out + "--spacing 1 --bounds 5 6 0 1 0 1", 1,
+       "5.000000 to 6.000000 along x miss the mesh"},
+      {good + out + "--spacing 9", 1, "is wider than the bounds"},
+      {good + out + "--spacing 1e-9", 1, "more than 2e9 nodes"},
+      {good + out + "--spacing 1 --planar 7", 1, "--planar must lie within the mesh"},
+      {(folder / "nan.vti") + out + "--spacing 1", 1, "array U is not finite at point 5"},
+      {(folder / "broken.vtu") + out + "--spacing 1", 1, "cannot be read"},
+      {(folder / "nocase") + out + "--spacing 1", 1, "is no OpenFOAM case"},
+      {good + " /nowhere/out.vtkhdf --spacing 1", 1, "/nowhere/out.vtkhdf: cannot be created"},
+      {std::string(FLOWGRID_DATA) + "/poiseuille" + out + "--spacing 0.1 --wall roof", 1,
+       "has no patch roof"},
+  };
+  for (const auto &row : rows) {
+    const auto run = flowgrid_with(row.words);
+    EXPECT_EQ(run.status, row.status) << row.words << "\n" << run.text;
+    EXPECT_NE(run.text.find(row.message), std::string::npos) << row.words << "\n" << run.text;
+  }
+  EXPECT_EQ(flowgrid_with("--help").status, 0);
+}

@@ -1,0 +1,450 @@
+#include "vtk_input.h"
+
+#include <vtkAppendFilter.h>
+#include <vtkCGNSReader.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkDataObjectTreeIterator.h>
+#include <vtkGenericCell.h>
+#include <vtkGenericDataObjectReader.h>
+#include <vtkIdList.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkMultiBlockPLOT3DReader.h>
+#include <vtkNew.h>
+#include <vtkObject.h>
+#include <vtkOpenFOAMReader.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStaticPointLocator.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLGenericDataObjectReader.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+namespace flowgrid {
+
+struct VtkInput::Vtk {
+  vtkSmartPointer<vtkAlgorithm> reader;
+  vtkSmartPointer<vtkUnstructuredGrid> grid;    // all blocks in one, coincident points merged
+  std::vector<int> origin_cell;                 // VTK's cell of each cell of the mesh
+  bool foam = false;
+  std::string case_folder;
+  std::vector<std::string> wall_names;
+
+  struct Patch {
+    std::string name;
+    vtkSmartPointer<vtkPolyData> faces;
+    std::vector<int> point;    // of the mesh, of each point
+    bool wall = false;
+  };
+  std::vector<Patch> patches;
+};
+
+namespace {
+
+  [[noreturn]] void stop(const std::string &file, const std::string &why)
+  {
+    throw std::runtime_error(file + ": " + why);
+  }
+
+  std::string ending(const std::string &path)
+  {
+    std::string end = fs::path(path).extension().string();
+    for (char &c : end) c = static_cast<char>(std::tolower(c));
+    return end;
+  }
+
+  // text between the braces that follow `word` in an OpenFOAM dictionary, empty if it is not there
+  std::string block_of(const std::string &text, const std::string &word)
+  {
+    const std::regex head("(^|[\\s;}{)(\"])" + word + "\"?\\s*\\{");
+    std::smatch found;
+    if (!std::regex_search(text, found, head)) return {};
+    size_t at = found.position() + found.length();
+    int depth = 1;
+    const size_t begin = at;
+    for (; at < text.size() && depth > 0; at++)
+      depth += text[at] == '{' ? 1 : text[at] == '}' ? -1 : 0;
+    return text.substr(begin, at - begin - 1);
+  }
+
+  std::string contents(const fs::path &path)
+  {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+  // Coordinates in single precision are taken for the decimal numbers that they stand for: 0.006 is not
+  // exactly the end of a box otherwise.
+  double as_written(double x)
+  {
+    char digits[32];
+    snprintf(digits, sizeof(digits), "%.7g", x);
+    return std::strtod(digits, nullptr);
+  }
+
+  std::string type_of(const std::string &block)
+  {
+    std::smatch found;
+    const std::regex type("(^|[\\s;{])type\\s+(\\w+)\\s*;");
+    return std::regex_search(block, found, type) ? found[2].str() : std::string();
+  }
+
+}    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+VtkInput::VtkInput(const std::string &path, const std::vector<std::string> &wall_names,
+                   const std::string &solution) :
+    vtk(std::make_unique<Vtk>()),
+    file(path)
+{
+  vtkObject::GlobalWarningDisplayOff();
+  if (!fs::exists(path)) stop(path, "does not exist");
+  vtk->wall_names = wall_names;
+  const std::string end = ending(path);
+  if (fs::is_directory(path) || end == ".foam" || end == ".openfoam") {
+    vtk->foam = true;
+    vtk->case_folder = fs::is_directory(path) ? path : fs::path(path).parent_path().string();
+    if (vtk->case_folder.empty()) vtk->case_folder = ".";
+    if (!fs::exists(vtk->case_folder + "/system/controlDict"))
+      stop(path, "is no OpenFOAM case: there is no system/controlDict");
+    auto reader = vtkSmartPointer<vtkOpenFOAMReader>::New();
+    reader->SetFileName((vtk->case_folder + "/case.foam").c_str());
+    reader->CreateCellToPointOff();
+    reader->DecomposePolyhedraOn();
+    reader->SkipZeroTimeOff();
+    reader->UpdateInformation();
+    reader->EnableAllPatchArrays();
+    reader->EnableAllCellArrays();
+    vtk->reader = reader;
+  } else if (end == ".cgns") {
+    auto reader = vtkSmartPointer<vtkCGNSReader>::New();
+    reader->SetFileName(path.c_str());
+    reader->UpdateInformation();
+    reader->EnableAllBases();
+    reader->EnableAllFamilies();
+    reader->EnableAllPointArrays();
+    reader->EnableAllCellArrays();
+    vtk->reader = reader;
+  } else if (end == ".xyz" || end == ".x" || end == ".p3d") {
+    if (solution.empty()) stop(path, "a PLOT3D grid needs its solution: --solution FILE.q");
+    if (!fs::exists(solution)) stop(solution, "does not exist");
+    auto reader = vtkSmartPointer<vtkMultiBlockPLOT3DReader>::New();
+    reader->SetXYZFileName(path.c_str());
+    reader->SetQFileName(solution.c_str());
+    reader->AutoDetectFormatOn();
+    reader->SetVectorFunctionNumber(200);    // velocity
+    reader->AddFunction(110);                // pressure
+    vtk->reader = reader;
+  } else if (end == ".vtk") {
+    auto reader = vtkSmartPointer<vtkGenericDataObjectReader>::New();
+    reader->SetFileName(path.c_str());
+    reader->ReadAllVectorsOn();
+    reader->ReadAllScalarsOn();
+    vtk->reader = reader;
+  } else if (end.compare(0, 3, ".vt") == 0) {
+    auto reader = vtkSmartPointer<vtkXMLGenericDataObjectReader>::New();
+    reader->SetFileName(path.c_str());
+    vtk->reader = reader;
+  } else
+    stop(path,
+         "must be an OpenFOAM case, .vtm, .vts, .vtu, .vti, .vtr, .vtk, .cgns or PLOT3D (.xyz)");
+
+  vtk->reader->UpdateInformation();
+  auto *about = vtk->reader->GetOutputInformation(0);
+  auto *key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
+  if (about->Has(key)) steps.assign(about->Get(key), about->Get(key) + about->Length(key));
+  read(steps.empty() ? 0 : static_cast<int>(steps.size()) - 1);
+  make_mesh();
+}
+
+VtkInput::~VtkInput() = default;
+
+/* ---------------------------------------------------------------------- */
+
+// All data sets of a step, in one grid.
+void VtkInput::read(int step)
+{
+  if (steps.empty())
+    vtk->reader->Update();
+  else
+    vtk->reader->UpdateTimeStep(steps[step]);
+  auto *data = vtk->reader->GetOutputDataObject(0);
+  vtkNew<vtkAppendFilter> append;
+  append->MergePointsOn();
+  int pieces = 0;
+  const auto patches_known = !vtk->patches.empty();
+  size_t patch = 0;
+  if (auto *blocks = vtkMultiBlockDataSet::SafeDownCast(data)) {
+    vtkSmartPointer<vtkDataObjectTreeIterator> it;
+    it.TakeReference(blocks->NewTreeIterator());
+    it->VisitOnlyLeavesOn();
+    for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
+      auto *set = vtkDataSet::SafeDownCast(it->GetCurrentDataObject());
+      if (!set) continue;
+      auto *surface = vtk->foam ? vtkPolyData::SafeDownCast(set) : nullptr;
+      if (surface) {
+        const char *name = it->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME());
+        if (!patches_known)
+          vtk->patches.push_back({name ? name : "", surface, {}, false});
+        else
+          vtk->patches[patch++].faces = surface;
+        continue;
+      }
+      append->AddInputData(set);
+      pieces++;
+    }
+  } else if (auto *set = vtkDataSet::SafeDownCast(data)) {
+    append->AddInputData(set);
+    pieces++;
+  }
+  if (!pieces) stop(file, "cannot be read, or holds no mesh");
+  append->Update();
+  vtk->grid = append->GetOutput();
+  if (vtk->grid->GetNumberOfCells() == 0) stop(file, "cannot be read, or holds no cells");
+}
+
+/* ---------------------------------------------------------------------- */
+
+// Hexahedra and quadrilaterals as they are, pixels and voxels in their order; others in simplices.
+void VtkInput::make_mesh()
+{
+  auto *grid = vtk->grid.Get();
+  const auto npoints = grid->GetNumberOfPoints();
+  if (npoints > 2000000000 || grid->GetNumberOfCells() > 400000000)
+    stop(file, "has too many points or cells");
+  cells.points.resize(npoints);
+  for (vtkIdType p = 0; p < npoints; p++) grid->GetPoint(p, cells.points[p].data());
+  if (grid->GetPoints()->GetDataType() == VTK_FLOAT)
+    for (auto &point : cells.points)
+      for (double &x : point) x = as_written(x);
+
+  bool solid = false;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells() && !solid; c++)
+    solid = grid->GetCell(c)->GetCellDimension() == 3;
+  vtkNew<vtkIdList> pieces;
+  vtkNew<vtkPoints> places;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); c++) {
+    auto *cell = grid->GetCell(c);
+    if (cell->GetCellDimension() != (solid ? 3 : 2)) continue;
+    std::array<int, 8> of{};
+    auto add = [&](Shape shape, std::initializer_list<int> order) {
+      int k = 0;
+      for (int corner : order) of[k++] = static_cast<int>(cell->GetPointId(corner));
+      cells.add(shape, of);
+      vtk->origin_cell.push_back(static_cast<int>(c));
+    };
+    switch (cell->GetCellType()) {
+      case VTK_HEXAHEDRON:
+        add(Shape::HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7});
+        continue;
+      case VTK_VOXEL:
+        add(Shape::HEXAHEDRON, {0, 1, 3, 2, 4, 5, 7, 6});
+        continue;
+      case VTK_QUAD:
+        add(Shape::QUAD, {0, 1, 2, 3});
+        continue;
+      case VTK_PIXEL:
+        add(Shape::QUAD, {0, 1, 3, 2});
+        continue;
+      default:
+        break;
+    }
+    cell->Triangulate(0, pieces, places);
+    const int corners = solid ? 4 : 3;
+    for (vtkIdType k = 0; k + corners <= pieces->GetNumberOfIds(); k += corners) {
+      for (int n = 0; n < corners; n++) of[n] = static_cast<int>(pieces->GetId(k + n));
+      cells.add(solid ? Shape::TETRA : Shape::TRIANGLE, of);
+      vtk->origin_cell.push_back(static_cast<int>(c));
+    }
+  }
+  cells.link();
+  if (!vtk->foam) return;
+
+  // patches: which are walls, and which points of the mesh are theirs
+  vtkNew<vtkStaticPointLocator> locator;
+  locator->SetDataSet(grid);
+  locator->BuildLocator();
+  const std::string boundary = contents(vtk->case_folder + "/constant/polyMesh/boundary");
+  std::vector<bool> is_wall(npoints, false);
+  for (auto &patch : vtk->patches) {
+    patch.wall = type_of(block_of(boundary, patch.name)) == "wall";
+    for (const auto &name : vtk->wall_names) patch.wall |= name == patch.name;
+    for (vtkIdType p = 0; p < patch.faces->GetNumberOfPoints(); p++) {
+      patch.point.push_back(static_cast<int>(locator->FindClosestPoint(patch.faces->GetPoint(p))));
+      if (patch.wall) is_wall[patch.point.back()] = true;
+    }
+  }
+  for (const auto &name : vtk->wall_names) {
+    bool found = false;
+    for (const auto &patch : vtk->patches) found |= patch.name == name;
+    if (!found) stop(file, "has no patch " + name + ", which --wall names");
+  }
+  for (vtkIdType p = 0; p < npoints; p++)
+    if (is_wall[p]) walls.push_back(static_cast<int>(p));
+}
+
+/* ---------------------------------------------------------------------- */
+
+// The field of that name, from points, or from cells where points do not have it.
+Field VtkInput::field(const std::string &name, int components, const char *what)
+{
+  Field result;
+  vtkDataArray *array = nullptr;
+  bool of_cells = false;
+  std::string present;
+  for (const bool cell_data : {false, true}) {
+    vtkDataSetAttributes *data = cell_data
+        ? static_cast<vtkDataSetAttributes *>(vtk->grid->GetCellData())
+        : vtk->grid->GetPointData();
+    for (int k = 0; k < data->GetNumberOfArrays(); k++) {
+      auto *one = data->GetArray(k);
+      if (!one || !one->GetName()) continue;
+      present += present.empty() ? one->GetName() : std::string(", ") + one->GetName();
+      if (array || one->GetNumberOfComponents() != components) continue;
+      const std::string is = one->GetName();
+      const bool fits = !name.empty() ? is == name
+          : components == 3 ? is == "U" || is == "velocity" || is == "Velocity" || is == "u"
+                            : is == "p" || is == "pressure" || is == "Pressure";
+      if (!fits) continue;
+      array = one;
+      of_cells = cell_data;
+    }
+  }
+  if (!array && (components == 3 || !name.empty()))
+    stop(file,
+         std::string("has no array ") + (name.empty() ? "U or velocity" : name) + " of " +
+             std::to_string(components) + " component(s) for the " + what +
+             "; there are: " + (present.empty() ? "none" : present));
+  if (!array) return result;
+
+  result.name = array->GetName();
+  result.components = components;
+  result.values.resize(static_cast<size_t>(array->GetNumberOfTuples()) * components);
+  for (vtkIdType t = 0; t < array->GetNumberOfTuples(); t++)
+    for (int c = 0; c < components; c++) {
+      const double value = array->GetComponent(t, c);
+      if (!std::isfinite(value))
+        stop(file,
+             std::string("array ") + result.name + " is not finite at " +
+                 (of_cells ? "cell " : "point ") + std::to_string(t));
+      result.values[static_cast<size_t>(t) * components + c] = value;
+    }
+  if (of_cells) {
+    result.values = from_cells(result.values, components);
+    set_on_patches(result);
+  }
+  return result;
+}
+
+// Means of the cells around each point, weighted by the inverse of their distance.
+std::vector<double> VtkInput::from_cells(const std::vector<double> &values, int components) const
+{
+  std::vector<double> sum(cells.points.size() * components, 0.0), weight(cells.points.size(), 0.0);
+  for (int c = 0; c < cells.size(); c++) {
+    const Point centre = cells.centre(c);
+    for (int k = 0; k < info(cells.shapes[c]).corners; k++) {
+      const int p = cells.corners[c][k];
+      const Point &x = cells.points[p];
+      const double w = 1.0 / std::hypot(x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]);
+      weight[p] += w;
+      for (int n = 0; n < components; n++)
+        sum[static_cast<size_t>(p) * components + n] +=
+            w * values[static_cast<size_t>(vtk->origin_cell[c]) * components + n];
+    }
+  }
+  for (size_t p = 0; p < weight.size(); p++)
+    for (int n = 0; n < components && weight[p] > 0.0; n++) sum[p * components + n] /= weight[p];
+  return sum;
+}
+
+// Points of patches get the mean of the faces around them; walls come last, and rest where the case
+// says noSlip or leaves the velocity of a fixed one at 0.
+void VtkInput::set_on_patches(Field &field) const
+{
+  const int n = field.components;
+  const std::string boundary = [&] {
+    for (int k = static_cast<int>(steps.size()) - 1; k >= 0; k--) {
+      std::ostringstream name;
+      name << steps[k];
+      const std::string text = contents(vtk->case_folder + "/" + name.str() + "/" + field.name);
+      const size_t at = text.rfind("boundaryField");
+      if (at != std::string::npos) return text.substr(at);
+    }
+    return std::string();
+  }();
+  for (const bool of_walls : {false, true}) {
+    std::vector<double> sum(field.values.size(), 0.0);
+    std::vector<int> faces(cells.points.size(), 0);
+    for (const auto &patch : vtk->patches) {
+      if (patch.wall != of_walls || (patch.wall && n != 3)) continue;
+      const std::string type = type_of(block_of(boundary, patch.name));
+      if (type == "empty" || type == "cyclic" || type == "symmetryPlane" || type == "symmetry")
+        continue;
+      const bool rests = n == 3 && type == "noSlip";
+      auto *array = patch.faces->GetCellData()->GetArray(field.name.c_str());
+      if (!array && !rests) continue;
+      for (vtkIdType f = 0; f < patch.faces->GetNumberOfCells(); f++) {
+        auto *face = patch.faces->GetCell(f);
+        for (vtkIdType k = 0; k < face->GetNumberOfPoints(); k++) {
+          const int p = patch.point[face->GetPointId(static_cast<int>(k))];
+          faces[p]++;
+          for (int c = 0; c < n && !rests; c++)
+            sum[static_cast<size_t>(p) * n + c] += array->GetComponent(f, c);
+        }
+      }
+    }
+    for (size_t p = 0; p < faces.size(); p++)
+      for (int c = 0; c < n && faces[p]; c++) field.values[p * n + c] = sum[p * n + c] / faces[p];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+Field VtkInput::velocity(int step, const std::string &name)
+{
+  if (!steps.empty()) read(step);
+  return field(name, 3, "velocity");
+}
+
+Field VtkInput::pressure(int step, const std::string &name)
+{
+  if (!steps.empty()) read(step);
+  return field(name, 1, "pressure");
+}
+
+std::vector<Point> VtkInput::wall_points(const Field &velocity) const
+{
+  std::vector<Point> result;
+  if (!walls.empty()) {
+    for (int p : walls) result.push_back(cells.points[p]);
+    return result;
+  }
+  const auto border = cells.on_border();
+  for (size_t p = 0; p < border.size(); p++)
+    if (border[p] && velocity.values[3 * p] == 0.0 && velocity.values[3 * p + 1] == 0.0 &&
+        velocity.values[3 * p + 2] == 0.0)
+      result.push_back(cells.points[p]);
+  return result;
+}
+
+}    // namespace flowgrid
