@@ -92,8 +92,8 @@ namespace {
     return text.str();
   }
 
-  // Coordinates in single precision are taken for the decimal numbers that they stand for: 0.006 is not
-  // exactly the end of a box otherwise.
+  // Coordinates in single precision are taken for the decimal numbers that they stand for: 0.006 is
+  // not exactly the end of a box otherwise.
   double as_written(double x)
   {
     char digits[32];
