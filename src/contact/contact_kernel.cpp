@@ -13,13 +13,7 @@
 
 namespace apf::APF_ISA {
 
-#if defined(__AVX512F__)
-using Real = Pack<64>;
-#elif defined(__AVX2__)
-using Real = Pack<32>;
-#else
-using Real = Pack<16>;
-#endif
+using Real = Pack<APF_REGISTER_BYTES>;
 
 // Contacts that are treated together: a whole block, or a part of it.
 constexpr int width = Real::width;

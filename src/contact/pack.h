@@ -11,6 +11,15 @@
 
 #include <cstring>
 
+// of the widest vector registers that this file is compiled for
+#if defined(__AVX512F__)
+#define APF_REGISTER_BYTES 64
+#elif defined(__AVX2__)
+#define APF_REGISTER_BYTES 32
+#else
+#define APF_REGISTER_BYTES 16
+#endif
+
 namespace apf {
 
 using Pair = double __attribute__((vector_size(16)));

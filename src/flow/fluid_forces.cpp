@@ -19,13 +19,7 @@
 
 namespace apf::APF_ISA {
 
-#if defined(__AVX512F__)
-using Real = Pack<64>;
-#elif defined(__AVX2__)
-using Real = Pack<32>;
-#else
-using Real = Pack<16>;
-#endif
+using Real = Pack<APF_REGISTER_BYTES>;
 using Vector = Vector3<Real>;
 static_assert(block_width % Real::width == 0, "groups fill a block");
 
