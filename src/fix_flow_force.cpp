@@ -24,6 +24,42 @@ apf::Vec3 at(const apf::Lanes (&a)[3], int l)
   return {a[0][l], a[1][l], a[2][l]};
 }
 
+// rows of a per-atom array, to arrays of components and back
+void take(double **from, const int *atoms, int n, apf::Lanes (&to)[3])
+{
+  for (int l = 0; l < n; l++) {
+    const double *row = from[atoms[l]];
+    for (int c = 0; c < 3; c++) to[c][l] = row[c];
+  }
+}
+void add(const apf::Lanes (&from)[3], const int *atoms, int n, double **to)
+{
+  for (int l = 0; l < n; l++) {
+    double *row = to[atoms[l]];
+    for (int c = 0; c < 3; c++) row[c] += from[c][l];
+  }
+}
+void put(const apf::Lanes (&from)[3], const int *atoms, int n, double **to, int column)
+{
+  for (int l = 0; l < n; l++) {
+    double *row = to[atoms[l]] + column;
+    for (int c = 0; c < 3; c++) row[c] = from[c][l];
+  }
+}
+
+// in eight parts, so that additions need not wait for each other
+double sum(const apf::Lanes &a, int n)
+{
+  constexpr int parts = 8;
+  double part[parts] = {}, total = 0.0;
+  const int whole = n - n % parts;
+  for (int l = 0; l < whole; l += parts)
+    for (int k = 0; k < parts; k++) part[k] += a[l + k];
+  for (int k = 0; k < parts; k++) total += part[k];
+  for (int l = whole; l < n; l++) total += a[l];
+  return total;
+}
+
 void add(double *a, const apf::Vec3 &b)
 {
   a[0] += b.x;
@@ -67,9 +103,7 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
   pergrid_freq = 1;
   respa_level_support = 1;
 
-  nmax = atom->nmax;
-  memory->create(array_atom, nmax, size_peratom_cols, "flow/force:array_atom");
-  if (nmax) std::fill_n(&array_atom[0][0], nmax * size_peratom_cols, 0.0);
+  grow_output();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -151,10 +185,7 @@ void FixFlowForce::for_blocks(const std::function<void()> &act)
 void FixFlowForce::post_force(int vflag)
 {
   v_init(vflag);
-  if (atom->nmax > nmax) {
-    nmax = atom->nmax;
-    memory->grow(array_atom, nmax, size_peratom_cols, "flow/force:array_atom");
-  }
+  if (atom->nmax > nmax) grow_output();
   if (sub_stepper) relaxations.assign(atom->nlocal, Relaxation());
   model.step = update->ntimestep;
   model.step_length = update->dt;
@@ -196,6 +227,16 @@ void FixFlowForce::post_run()
 }
 
 /* ----------------------------------------------------------------------
+   the per-atom array for all atoms; what no force writes stays 0
+------------------------------------------------------------------------- */
+
+void FixFlowForce::grow_output()
+{
+  memory->grow(array_atom, atom->nmax, size_peratom_cols, "flow/force:array_atom");
+  for (; nmax < atom->nmax; nmax++) std::fill_n(array_atom[nmax], size_peratom_cols, 0.0);
+}
+
+/* ----------------------------------------------------------------------
    time for which the forces act on the velocities
 ------------------------------------------------------------------------- */
 
@@ -213,30 +254,25 @@ double FixFlowForce::step() const
 int FixFlowForce::gather(int first, double whole, double sub)
 {
   auto &to = block->forces;
-  const int nlocal = atom->nlocal;
-  const double *radius = atom->radius, *rmass = atom->rmass;
-  double **x = atom->x, **v = atom->v, **omega = atom->omega, **f = atom->f, **t = atom->torque;
+  int *const atoms = block->atom;
   int n = 0, i = first;
-  for (; i < nlocal && n < apf::block_width; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    block->atom[n] = i;
-    block->points.set(n, x[i]);
-    to.diameter[n] = 2.0 * radius[i];
-    to.mass[n] = rmass[i];
-    to.step[n] = sub_stepper && sub_stepper->step_of(i) < update->dt ? sub : whole;
-    for (int c = 0; c < 3; c++) {
-      to.velocity[c][n] = v[i][c];
-      to.other_force[c][n] = f[i][c];
-      to.spin[c][n] = omega[i][c];
-      to.other_torque[c][n] = t[i][c];
-    }
-    n++;
-  }
+  for (const int nlocal = atom->nlocal; i < nlocal && n < apf::block_width; i++)
+    if (atom->mask[i] & groupbit) atoms[n++] = i;
   to.n = block->points.n = n;
+  for (int l = 0; l < n; l++) {
+    to.diameter[l] = 2.0 * atom->radius[atoms[l]];
+    to.mass[l] = atom->rmass[atoms[l]];
+    to.step[l] = sub_stepper && sub_stepper->step_of(atoms[l]) < update->dt ? sub : whole;
+  }
+  take(atom->x, atoms, n, block->points.x);
+  take(atom->v, atoms, n, to.velocity);
+  take(atom->f, atoms, n, to.other_force);
+  if (model.torque || model.magnus) take(atom->omega, atoms, n, to.spin);
+  if (model.torque) take(atom->torque, atoms, n, to.other_torque);
   std::fill(to.diameter + n, to.diameter + apf::block_width, 1.0);
   std::fill(to.mass + n, to.mass + apf::block_width, 1.0);
   if (model.brownian)
-    for (int l = 0; l < n; l++) to.tag[l] = static_cast<std::uint64_t>(atom->tag[block->atom[l]]);
+    for (int l = 0; l < n; l++) to.tag[l] = static_cast<std::uint64_t>(atom->tag[atoms[l]]);
   if (model.hindered()) {
     if (cloud)
       cloud->sample(block->points, to.concentration);
@@ -255,23 +291,17 @@ int FixFlowForce::gather(int first, double whole, double sub)
 void FixFlowForce::scatter()
 {
   const auto &from = block->forces;
-  for (int l = 0; l < from.n; l++) {
-    const int i = block->atom[l];
-    double *out = array_atom[i];
-    for (int c = 0; c < 3; c++) {
-      atom->f[i][c] += from.given[c][l];
-      out[c] = from.force[apf::DRAG][c][l];
-      out[3 + c] = 0.0;
-    }
-    if (model.torque)
-      for (int c = 0; c < 3; c++) {
-        atom->torque[i][c] += from.torque[c][l];
-        out[3 + c] = from.torque[c][l];
-      }
-    for (const int k : columns) {
-      out += 3;
-      for (int c = 0; c < 3; c++) out[3 + c] = from.force[k][c][l];
-    }
+  const int *const atoms = block->atom;
+  add(from.given, atoms, from.n, atom->f);
+  put(from.force[apf::DRAG], atoms, from.n, array_atom, 0);
+  if (model.torque) {
+    add(from.torque, atoms, from.n, atom->torque);
+    put(from.torque, atoms, from.n, array_atom, 3);
+  }
+  int column = 6;
+  for (const int k : columns) {
+    put(from.force[k], atoms, from.n, array_atom, column);
+    column += 3;
   }
 }
 
@@ -280,13 +310,12 @@ void FixFlowForce::scatter()
 void FixFlowForce::add_up()
 {
   const int n = block->forces.n;
-  auto sum = [&](const apf::Lanes(&a)[3], double *to) {
-    for (int c = 0; c < 3; c++)
-      for (int l = 0; l < n; l++) to[c] += a[c][l];
+  auto add_to = [n](double *to, const apf::Lanes(&a)[3]) {
+    for (int c = 0; c < 3; c++) to[c] += sum(a[c], n);
   };
-  sum(block->forces.force[apf::DRAG], total);
-  for (const int k : columns) sum(block->forces.force[k], total + 3 * k);
-  sum(block->forces.given, total + 3 * apf::n_fluid_forces);
+  add_to(total, block->forces.force[apf::DRAG]);
+  for (const int k : columns) add_to(total + 3 * k, block->forces.force[k]);
+  add_to(total + 3 * apf::n_fluid_forces, block->forces.given);
 }
 
 /* ---------------------------------------------------------------------- */

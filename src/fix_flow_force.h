@@ -107,6 +107,7 @@ class FixFlowForce : public Fix {
   bool shares_atoms(int bit) const;
   void warn_of_ranges();
 
+  void grow_output();
   double step() const;
   void for_blocks(const std::function<void()> &act);
   int gather(int first, double whole, double sub);

@@ -103,10 +103,11 @@ template <class Law> class FluidGroup {
       random = thermal_amplitude(model.kT, k_spin, model.step_length) * noise->at(first);
       other = other + random;
     }
-    const Real phi = mean_decay(step_per_inertia * k_spin);
+    const Real z = step_per_inertia * k_spin, half_phi = mean_decay(0.5 * z);
+    const Real phi = mean_decay_of_both_halves(z, half_phi);
     store(mean_resistance(k_spin, phi, spin_slip, other) + random, block.torque, first);
     (k_spin * inverse_inertia).store(&block.spin_rate[first]);
-    if (model.magnus) spin_slip = mid_slip(step_per_inertia, k_spin, spin_slip, other);
+    if (model.magnus) spin_slip = mid_slip(step_per_inertia, k_spin, half_phi, spin_slip, other);
   }
 
   APF_INLINE void move(const Noise *noise)
@@ -116,12 +117,16 @@ template <class Law> class FluidGroup {
     const Vector slip = load(block.velocity, first) - u;
     const Vector outer = load(block.other_force, first), steady = steady_forces(noise);
     Vector other = outer + steady, middle = slip;
+    const Real k_first = resistance(slip), z = step_per_mass * k_first;
+    const Real half_phi = mean_decay(0.5 * z);
     if (!Law::linear || model.slip_forces())
-      middle = mid_slip(step_per_mass, resistance(slip), slip, other + slip_forces(slip).sum());
-    const Real k_mid = resistance(middle);
+      middle = mid_slip(step_per_mass, k_first, half_phi, slip, other + slip_forces(slip).sum());
     const SlipForces forces = slip_forces(middle);
     other = other + forces.sum();
-    const Vector drag = mean_resistance(k_mid, mean_decay(step_per_mass * k_mid), slip, other);
+    const Real k_mid = Law::linear ? k_first : resistance(middle);
+    const Real phi = Law::linear ? mean_decay_of_both_halves(z, half_phi)
+                                 : mean_decay(step_per_mass * k_mid);
+    const Vector drag = mean_resistance(k_mid, phi, slip, other);
 
     Vector given = other - outer + drag;
     (k_mid * inverse_inertia).store(&block.rate[first]);

@@ -20,6 +20,12 @@ template <class Real> APF_INLINE Real mean_decay(const Real &z)
   return -exponential_less_one(-positive) / positive;
 }
 
+// phi(z) from half = phi(z/2)
+template <class Real> APF_INLINE Real mean_decay_of_both_halves(const Real &z, const Real &half)
+{
+  return half * (1.0 - 0.25 * z * half);
+}
+
 // The same of t exp(-z (1 - t)) over 0 < t < 1: what is left of a force that grows through a step
 inline double ramp_decay(double z)
 {
@@ -37,12 +43,12 @@ APF_INLINE Vector3<Real> mean_resistance(const Real &k, const Real &phi, const V
 
 // The slip in mid-step. Where resistance or other forces depend on the slip they are those of this
 // one, which makes the step second order; at a fixed point it is the slip itself.
+// half_phi = mean_decay(h k/2m)
 template <class Real>
-APF_INLINE Vector3<Real> mid_slip(const Real &step_per_mass, const Real &k,
+APF_INLINE Vector3<Real> mid_slip(const Real &step_per_mass, const Real &k, const Real &half_phi,
                                   const Vector3<Real> &slip, const Vector3<Real> &other)
 {
-  const Real half = 0.5 * step_per_mass;
-  return slip + (half * mean_decay(half * k)) * (other - k * slip);
+  return slip + (0.5 * step_per_mass * half_phi) * (other - k * slip);
 }
 
 }    // namespace apf

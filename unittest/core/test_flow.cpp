@@ -246,6 +246,14 @@ TEST(Relaxation, kick_of_any_length_is_the_exact_solution)
   }
 }
 
+TEST(Relaxation, decay_over_a_step_follows_from_its_first_half)
+{
+  for (double z : {0.0, 1e-12, 0.01, 1.0, 30.0, 1000.0}) {
+    const double exact = z > 0.0 ? -std::expm1(-z) / z : 1.0;
+    EXPECT_NEAR(mean_decay_of_both_halves(z, mean_decay(0.5 * z)) / exact, 1.0, 4e-15) << z;
+  }
+}
+
 TEST(Relaxation, vanishing_step_is_the_plain_law)
 {
   EXPECT_EQ(mean_decay(0.0), 1.0);
