@@ -10,6 +10,7 @@
 #include "math_extra.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "particle_checks.h"
 #include "update.h"
 
 #include <algorithm>
@@ -31,8 +32,7 @@ static constexpr int too_many = 1000000;
 FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), exchange(world)
 {
-  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    error->all(FLERR, 2, "{} needs atom style sphere, got {}", command, atom->get_style());
+  check_spheres(lmp, command, 2);
   time_integrate = 1;
   force_reneighbor = 1;
   next_reneighbor = -1;

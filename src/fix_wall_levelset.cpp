@@ -9,6 +9,7 @@
 #include "fix_contact_history.h"
 #include "math_extra.h"
 #include "modify.h"
+#include "particle_checks.h"
 #include "respa.h"
 #include "update.h"
 
@@ -25,11 +26,7 @@ static constexpr const char *command = "Fix wall/levelset";
 FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
     FixContacts(lmp, narg, arg), kernel(nullptr), rows(domain->dimension == 2)
 {
-  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    error->all(FLERR, 2,
-               "{} needs atom style sphere: radius, mass, omega and torque per atom; atom "
-               "style {} has not all of them",
-               command, atom->get_style());
+  check_spheres(lmp, command, 2);
   scalar_flag = 1;
   vector_flag = 1;
   size_vector = 9;

@@ -14,6 +14,7 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "particle_checks.h"
 #include "update.h"
 
 #include <algorithm>
@@ -348,11 +349,7 @@ void PairGranularAdhesive::coeff(int narg, char **arg)
 
 void PairGranularAdhesive::init_style()
 {
-  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair granular/adhesive needs atom style sphere: radius, mass, omega and torque "
-               "per atom; atom style {} has not all of them",
-               atom->get_style());
+  check_spheres(lmp, "Pair granular/adhesive", Error::NOLASTLINE);
   if (atom->tag_enable == 0)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair granular/adhesive needs atom IDs: remove atom_modify id no");
