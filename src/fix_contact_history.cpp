@@ -137,14 +137,29 @@ bool FixContactHistory::count_contacts()
 
   counts.assign(atom->nmax, 0.0);
   add_counts(counts.data());
-  sends_counts = true;
-  if (force->newton_pair) comm->reverse_comm(this, 1);
+  if (force->newton_pair) give_to_owners(counts, 1);
   pair_counts.assign(counts.begin(), counts.begin() + atom->nlocal);
   for (auto *keeper : keepers)
     if (keeper != this) keeper->count_into(counts.data());
+  carried = &counts;
+  columns = 1;
   comm->forward_comm(this, 1);
-  sends_counts = false;
+  carried = nullptr;
   return true;
+}
+
+// what ghosts have is added to what their owners have
+void FixContactHistory::give_to_owners(std::vector<double> &numbers, int of_each)
+{
+  carried = &numbers;
+  columns = of_each;
+  comm->reverse_comm(this, columns);
+  carried = nullptr;
+}
+
+void FixContactHistory::collect_due(std::vector<double> &loads)
+{
+  if (force->newton_pair) give_to_owners(loads, 3);
 }
 
 void FixContactHistory::add_counts(double *to)
@@ -159,9 +174,9 @@ void FixContactHistory::add_counts(double *to)
 // Ghosts of a sheared periodic box move relative to their owners, as CommBrick does it for v.
 int FixContactHistory::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int *pbc)
 {
-  if (sends_counts) {
-    for (int k = 0; k < n; k++) buf[k] = counts[list[k]];
-    return n;
+  if (carried) {
+    for (int k = 0; k < n; k++) buf = std::copy_n(&(*carried)[columns * list[k]], columns, buf);
+    return columns * n;
   }
   double dv[3] = {0.0, 0.0, 0.0};
   if (pbc_flag && domain->deform_vremap) {
@@ -180,8 +195,8 @@ int FixContactHistory::pack_forward_comm(int n, int *list, double *buf, int pbc_
 
 void FixContactHistory::unpack_forward_comm(int n, int first, double *buf)
 {
-  if (sends_counts) {
-    std::copy(buf, buf + n, &counts[first]);
+  if (carried) {
+    std::copy_n(buf, columns * n, &(*carried)[columns * first]);
     return;
   }
   for (int i = first; i < first + n; i++, buf += 6) velocities.bodies.set_motion(i, buf, buf + 3);
@@ -276,9 +291,9 @@ void FixContactHistory::send_to_owners()
 
 int FixContactHistory::pack_reverse_comm(int n, int first, double *buf)
 {
-  if (sends_counts) {
-    std::copy(&counts[first], &counts[first] + n, buf);
-    return n;
+  if (carried) {
+    std::copy_n(&(*carried)[columns * first], columns * n, buf);
+    return columns * n;
   }
   int m = 0;
   for (int i = first; i < first + n; i++) {
@@ -292,8 +307,9 @@ int FixContactHistory::pack_reverse_comm(int n, int first, double *buf)
 
 void FixContactHistory::unpack_reverse_comm(int n, int *list, double *buf)
 {
-  if (sends_counts) {
-    for (int k = 0; k < n; k++) counts[list[k]] += buf[k];
+  if (carried) {
+    for (int k = 0; k < n; k++)
+      for (int c = 0; c < columns; c++) (*carried)[columns * list[k] + c] += *buf++;
     return;
   }
   for (int k = 0; k < n; k++)

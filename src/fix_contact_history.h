@@ -56,6 +56,7 @@ class FixContactHistory : public FixContacts {
   }                                                   // with particles only, local atoms
   bigint counted() const { return times_counted; }    // so often until now
   using FixContacts::count_anew;
+  using FixContacts::due;
 
   // positions and velocities of the last forces, and these forces; local and ghost atoms
   apf::Bodies &bodies() { return velocities.bodies; }
@@ -69,6 +70,7 @@ class FixContactHistory : public FixContacts {
   void store_contacts() override;
   void add_counts(double *) override;
   bool stores_alone() const override;
+  void collect_due(std::vector<double> &) override;
 
  private:
   void share_velocities() override;
@@ -76,11 +78,15 @@ class FixContactHistory : public FixContacts {
   class PairGranularAdhesive *pair = nullptr;
   double radius_growth = 0.0;
   std::vector<double> counts, pair_counts;
-  bool sends_counts = false;    // what communication carries: counts, or velocities and histories
+  // what communication carries: numbers [local and ghost atoms][columns], else velocities and
+  // histories
+  std::vector<double> *carried = nullptr;
+  int columns = 1;
   bigint changes_counted = -1;
   bigint times_counted = 0;
   std::vector<int> sent;    // records that each ghost has sent to its owner
 
+  void give_to_owners(std::vector<double> &, int columns);
   void send_to_owners();
   static double at(const std::vector<double> &numbers, int i)    // 0 before the first count
   {

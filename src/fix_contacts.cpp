@@ -70,6 +70,7 @@ const apf::ContactTimes &FixContacts::take_velocities()
   taken = {step, 0.5 * step, step};
   if (!update->setupflag) {
     velocities.use(atom);
+    recall_due(taken);
     return taken;
   }
   taken.advance = 0.0;
@@ -83,7 +84,18 @@ const apf::ContactTimes &FixContacts::take_velocities()
     taken.behind = 0.0;
     velocities.use(atom);
   }
+  recall_due(taken);
   return taken;
+}
+
+void FixContacts::recall_due(const apf::ContactTimes &times)
+{
+  due.clear();
+  if (times.advance > 0.0 || times.behind == 0.0) return;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const auto &f = velocities.due_load(i);
+    if (f[0] != 0.0 || f[1] != 0.0 || f[2] != 0.0) due.push_back({i, {f[0], f[1], f[2]}});
+  }
 }
 
 apf::ContactTimes FixContacts::last_times() const
@@ -129,7 +141,11 @@ void FixContacts::pre_exchange()
 void FixContacts::post_run()
 {
   pre_exchange();
-  velocities.remember(atom);
+  std::vector<double> loads(3 * static_cast<size_t>(atom->nlocal + atom->nghost), 0.0);
+  for (const auto &load : due)
+    for (int c = 0; c < 3; c++) loads[3 * load.row + c] += load.f[c];
+  collect_due(loads);
+  velocities.remember(atom, loads);
 }
 
 void FixContacts::write_restart(FILE *fp)

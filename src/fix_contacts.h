@@ -4,6 +4,7 @@
 #include "fix.h"
 
 #include "contact/contact_law.h"
+#include "contact/jump.h"
 #include "contact_store.h"
 #include "timestep/look_ahead.h"
 #include "used_velocity.h"
@@ -60,6 +61,13 @@ class FixContacts : public Fix {
  protected:
   ContactStore store;
   UsedVelocity velocities;
+
+  // Part of the last loads that comes of contacts just made or ended. It is kept with the atoms from
+  // run to run, since nothing else shows it there.
+  std::vector<apf::DueLoad> due;
+  void recall_due(const apf::ContactTimes &);    // of the forces that are to be computed
+  // loads that other ranks have put on atoms of this one are added; [local and ghost atoms][3]
+  virtual void collect_due(std::vector<double> &) {}
 
   void contacts_change() { stored = false; }    // what the store holds is no longer the latest
   void count_anew() { changes++; }              // a contact was made or has ended

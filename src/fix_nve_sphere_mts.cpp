@@ -320,6 +320,12 @@ void FixNVESphereMTS::look_ahead()
 {
   ahead.begin(atom->nlocal + atom->nghost);
   ahead.acceleration = surface_accelerations();
+  const auto &bodies = history->bodies();
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+    double load[3] = {}, torque[3] = {};
+    bodies.add_load_to(i, load, torque);    // also of contacts that have ended
+    if (MathExtra::lensq3(load) > 0.0) ahead.come_near(i);
+  }
   for (auto *keeper : keepers) keeper->find_fastest(ahead);
   MPI_Allreduce(MPI_IN_PLACE, &ahead.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
   ahead.limit = std::max(ahead.limit, ahead.fastest);

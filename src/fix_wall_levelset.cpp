@@ -158,13 +158,15 @@ void FixWallLevelset::post_force(int vflag)
   touched.resize(atom->nmax, 0);
   if (rebuild) find_again();
   const auto times = lender ? lender->times() : take_velocities();
+  if (lender) recall_due(times);
   contacts_change();
   const int before = contacts.size();
-  parted.clear();
   detect();
   share_masses();
+  const bool goes_on = !due.empty();
   const int ended = add_forces(times, before);
   tally(vflag);
+  if (goes_on) add_due();
   if (ended) remove_ended(false);
 }
 
@@ -255,7 +257,7 @@ void FixWallLevelset::remove_ended(bool in_sub_step)
 {
   for (int k = contacts.size() - 1; k >= 0; k--) {
     if (!contacts.ended(k)) continue;
-    (in_sub_step ? near : parted).push_back({contacts.source[k], surface_of[k]});
+    if (in_sub_step) near.push_back({contacts.source[k], surface_of[k]});
     touched[contacts.source[k]] &= ~(1u << surface_of[k]);
     contacts.remove(k);
     surface_of[k] = surface_of.back();
@@ -300,15 +302,35 @@ int FixWallLevelset::add_forces(const apf::ContactTimes &times, int made)
 {
   gather();
   const int ended = kernel(contacts, rows, times, nullptr);
+  std::vector<apf::DueLoad> of_rows;
   if (times.advance > 0.0 && (ended || made < contacts.size()))
     rows.with_rows([&](auto *r) {
       for (int k = made; k < contacts.size(); k++)
-        apf::correct_touch(contacts, k, r, times.advance);
+        apf::correct_touch(contacts, k, r, times.advance, of_rows);
       for (int k = 0; k < contacts.size(); k++)
-        if (contacts.ended(k)) apf::correct_end(contacts, k, r, times.advance);
+        if (contacts.ended(k)) apf::correct_end(contacts, k, r, times.advance, of_rows);
     });
+  for (const auto &load : of_rows)
+    if (load.row % 2 == 0)
+      due.push_back({contacts.source[load.row / 2], {load.f[0], load.f[1], load.f[2]}});
   return_loads();
   return ended;
+}
+
+// What is due from the last run acts along the line through a particle's centre and its foot point.
+void FixWallLevelset::add_due()
+{
+  const double no_torque[3] = {};
+  for (const auto &[i, f] : due) {
+    particles().add_load(i, f, no_torque);
+    const double *x = atom->x[i];
+    for (int c = 0; c < 3; c++) {
+      const int a = (c + 1) % 3, b = (c + 2) % 3;
+      atom->f[i][c] += f[c];
+      loads[c] -= f[c];
+      loads[3 + c] -= x[a] * f[b] - x[b] * f[a];
+    }
+  }
 }
 
 // what the wall exerts on particles goes to their rows
@@ -368,8 +390,7 @@ void FixWallLevelset::find_fastest(apf::LookAhead &ahead)
 
 void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
 {
-  near = parted;
-  for (const auto &[i, s] : parted) ahead.come_near(i);
+  near.clear();
   perhaps.clear();
   const double farthest = ahead.farthest();
   for (int i = 0; i < atom->nlocal; i++) {

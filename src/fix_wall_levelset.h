@@ -65,8 +65,7 @@ class FixWallLevelset : public FixContacts {
   struct Near {
     int i, surface;
   };
-  std::vector<Near> near;      // particles that may touch within the present particle step
-  std::vector<Near> parted;    // particles whose contact ended at the last look
+  std::vector<Near> near;    // particles that may touch within the present particle step
   struct Perhaps {
     int i, surface;
     double gap;
@@ -98,6 +97,7 @@ class FixWallLevelset : public FixContacts {
   void remove_ended(bool in_sub_step);
   void gather();
   int add_forces(const apf::ContactTimes &, int made);
+  void add_due();
   void return_loads();
   void tally(int vflag);
 };

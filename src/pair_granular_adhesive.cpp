@@ -78,6 +78,8 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   const auto times = store->take_velocities();
   auto &bodies = store->bodies();
   bodies.clear_loads(0, atom->nlocal + atom->nghost);
+  const double no_torque[3] = {};
+  for (const auto &load : store->due) bodies.add_load(load.row, load.f, no_torque);
   // contacts open with first touch and end with the neck
   detect(true, times.advance);
   if (store->count_contacts()) share_masses();
@@ -103,7 +105,6 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
 // step: since positions were looked at before, 0 if they were not
 void PairGranularAdhesive::detect(bool all, double step)
 {
-  candidates.parted.clear();
   store->bodies().with_rows([&](auto *rows) {
     auto touches = [&](int k) {
       const auto approach =
@@ -114,7 +115,7 @@ void PairGranularAdhesive::detect(bool all, double step)
         store->note_touch(approach, candidates.touch[k],
                           kind_of(i, j).mode);    // one of the ranks that see it
       close(k, apf::ContactHistory());
-      if (step > 0.0) apf::correct_touch(contacts, contacts.size() - 1, rows, step);
+      if (step > 0.0) apf::correct_touch(contacts, contacts.size() - 1, rows, step, store->due);
     };
     if (all)
       candidates.detect(rows, touches);
@@ -253,7 +254,7 @@ void PairGranularAdhesive::correct_ends(double step)
   if (step == 0.0) return;
   store->bodies().with_rows([&](auto *rows) {
     for (int k = 0; k < contacts.size(); k++)
-      if (contacts.ended(k)) apf::correct_end(contacts, k, rows, step);
+      if (contacts.ended(k)) apf::correct_end(contacts, k, rows, step, store->due);
   });
 }
 
@@ -262,7 +263,7 @@ void PairGranularAdhesive::remove_ended(bool in_sub_step)
   for (int k = contacts.size() - 1; k >= 0; k--)
     if (contacts.ended(k)) {
       candidates.closed[contacts.source[k]] = 0;
-      (in_sub_step ? candidates.near : candidates.parted).push_back(contacts.source[k]);
+      if (in_sub_step) candidates.near.push_back(contacts.source[k]);
       store->count_anew();
       contacts.remove(k);
     }

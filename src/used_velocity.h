@@ -17,7 +17,7 @@ namespace LAMMPS_NS {
 
 class UsedVelocity {
  public:
-  static constexpr int size = 12;    // doubles per atom that migrate with it
+  static constexpr int size = 15;    // doubles per atom that migrate with it
 
   apf::Bodies bodies;    // rows: local and ghost atoms
 
@@ -27,6 +27,7 @@ class UsedVelocity {
   {
     if (static_cast<int>(end.size()) >= nmax) return;
     end.resize(nmax);
+    due.resize(nmax);
     bodies.resize(nmax);
   }
 
@@ -52,22 +53,32 @@ class UsedVelocity {
     return true;
   }
 
-  // at the end of a run and before a restart file
-  void remember(const Atom *atom)
+  // at the end of a run and before a restart file; loads [atoms][3]: see apf::DueLoad
+  void remember(const Atom *atom, const std::vector<double> &loads)
   {
-    for (int i = 0; i < atom->nlocal; i++) end[i] = now(atom, i);
+    for (int i = 0; i < atom->nlocal; i++) {
+      end[i] = now(atom, i);
+      std::copy_n(&loads[3 * i], 3, due[i].begin());
+    }
   }
+  const std::array<double, 3> &due_load(int i) const { return due[i]; }
 
-  void insert(int i) { end[i].fill(NAN); }    // matches nothing
+  void insert(int i)
+  {
+    end[i].fill(NAN);    // matches nothing
+    due[i].fill(0.0);
+  }
   void copy(int from, int to)
   {
     end[to] = end[from];
+    due[to] = due[from];
     bodies.copy_row(bodies, from, to);
   }
 
   int pack(int i, double *buf) const
   {
     buf = std::copy(end[i].begin(), end[i].end(), buf);
+    buf = std::copy(due[i].begin(), due[i].end(), buf);
     bodies.motion(i, buf, buf + 3);
     return size;
   }
@@ -75,13 +86,15 @@ class UsedVelocity {
   int unpack(int i, const double *buf)
   {
     std::copy(buf, buf + 6, end[i].begin());
-    bodies.set_motion(i, buf + 6, buf + 9);
+    std::copy(buf + 6, buf + 9, due[i].begin());
+    bodies.set_motion(i, buf + 9, buf + 12);
     return size;
   }
 
  private:
-  using Six = std::array<double, 6>;    // velocity and angular velocity
-  std::vector<Six> end;                 // at the end of the last run
+  using Six = std::array<double, 6>;         // velocity and angular velocity
+  std::vector<Six> end;                      // at the end of the last run
+  std::vector<std::array<double, 3>> due;    // part of the loads then
 
   // LAMMPS's arrays are contiguous
   static const double (*rows_of(double **a))[3]

@@ -15,7 +15,6 @@ struct Candidates {
   std::vector<double> touch;    // r_i + r_j                                  [length]
   std::vector<char> closed;     // in contact
   std::vector<int> near;        // pairs that may touch within the present particle step
-  std::vector<int> parted;      // pairs whose contact ended at the last look; their load may act
 
   int size() const { return static_cast<int>(i.size()); }
 
@@ -26,7 +25,6 @@ struct Candidates {
     touch.clear();
     closed.clear();
     near.clear();
-    parted.clear();
   }
 
   int add(int body_i, int body_j, double radius_sum)
@@ -57,11 +55,6 @@ struct Candidates {
   {
     near.clear();
     perhaps.clear();
-    for (const int k : parted) {
-      near.push_back(k);
-      ahead.come_near(i[k]);
-      ahead.come_near(j[k]);
-    }
     const double farthest = ahead.farthest();
     for (int k = 0; k < size(); k++) {
       const Row &a = rows[i[k]], &b = rows[j[k]];

@@ -79,7 +79,7 @@ template <class Real> struct ConstantsOf {
   Real roll_limit;       // xi_crit = theta_crit R                                       [length]
   Real roll_eta;         // rolling damping: roll_eta s^(3/2)                 [force time/length]
   Real turning;          // see ContactBodies                                                 [-]
-  Real unused;           // makes the above whole groups of four
+  Real lag;              // lag s = eta s / (2 m), see lagging_dashpot()              [1/time]
 };
 
 struct ContactConstants : ConstantsOf<double> {
@@ -107,6 +107,7 @@ struct ContactConstants : ConstantsOf<double> {
     c.neck = normal.neck;
     c.break_overlap = -break_share * normal.pulloff_overlap();
     c.eta = model.alpha * std::sqrt(bodies.m * normal.K / bodies.R);
+    c.lag = 0.5 * c.eta / bodies.m;
     c.kt = 8.0 * model.surface.G * f * bodies.R;
     c.inv_kt = c.kt > 0.0 ? 1.0 / c.kt : 0.0;
     c.mu = model.mu;

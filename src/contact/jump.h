@@ -7,6 +7,9 @@
 //
 //   touch, a time t ago:   force x (t + step/2) is due, force x step is given
 //   end,   a time t ago:   force x (step/2 - t) is due, nothing is given
+//
+// Half of the kick may belong to the next run; who looks at the contacts again finds no trace of
+// it, so it is noted.
 
 #ifndef APF_JUMP_H
 #define APF_JUMP_H
@@ -20,48 +23,63 @@ namespace apf {
 inline double force_at(const ContactConstants &c, double s, double closing_speed, double step)
 {
   const double s3 = s * s * s, neck3 = c.neck * c.neck * c.neck;
-  const double eta = stable_dashpot(c.eta * s, c.K * c.inv_R * s * s, c.crowd_mass, step);
+  const double eta = stable_dashpot(lagging_dashpot<double>(c, s, 0.5 * step),
+                                    c.K * c.inv_R * s * s, c.crowd_mass, step);
   return c.K * s3 * (s3 - 6.0 * neck3) + eta * closing_speed;
 }
 
+// What a body's load has beside the forces of its contacts.
+struct DueLoad {
+  int row;
+  double f[3];
+};
+
 // f is added to the load of j along the normal, and taken from that of i
-template <class Row> void push_apart(Row &i, Row &j, double f)
+template <class Row> void push_apart(Row *rows, int i, int j, double f, std::vector<DueLoad> &due)
 {
+  Row &a = rows[i], &b = rows[j];
   double d2 = 0.0;
-  for (int c = 0; c < Row::dim; c++) d2 += (j.x[c] - i.x[c]) * (j.x[c] - i.x[c]);
+  for (int c = 0; c < Row::dim; c++) d2 += (b.x[c] - a.x[c]) * (b.x[c] - a.x[c]);
   const double scale = f / std::sqrt(d2);
+  DueLoad on_i{i, {}}, on_j{j, {}};
   for (int c = 0; c < Row::dim; c++) {
-    const double along = scale * (j.x[c] - i.x[c]);
-    i.f[c] -= along;
-    j.f[c] += along;
+    on_j.f[c] = scale * (b.x[c] - a.x[c]);
+    on_i.f[c] = -on_j.f[c];
+    a.f[c] += on_i.f[c];
+    b.f[c] += on_j.f[c];
   }
+  due.push_back(on_i);
+  due.push_back(on_j);
 }
 
 // Contact k has just been made. Positions are those of its rows, velocities those that led there in
 // the time step.
-template <class Row> void correct_touch(const ContactList &list, int k, Row *rows, double step)
+template <class Row>
+void correct_touch(const ContactList &list, int k, Row *rows, double step,
+                   std::vector<DueLoad> &due)
 {
-  Row &i = rows[list.i[k]], &j = rows[list.j[k]];
   const auto c = list.constants_of(k);
-  const auto approach = Approach::of(i, j, c.radius_sum);
+  const auto approach = Approach::of(rows[list.i[k]], rows[list.j[k]], c.radius_sum);
   const double moved = step * approach.closing_speed;
   if (!(moved > 0.0) || -approach.gap > moved) return;    // it was there before: no jump
   const double touching = std::cbrt(4.0) * c.neck;        // where the overlap is 0
-  push_apart(i, j,
-             (-approach.gap / moved - 0.5) * force_at(c, touching, approach.closing_speed, step));
+  const double share = -approach.gap / moved - 0.5;
+  push_apart(rows, list.i[k], list.j[k],
+             share * force_at(c, touching, approach.closing_speed, step), due);
 }
 
 // Contact k has just ended.
-template <class Row> void correct_end(const ContactList &list, int k, Row *rows, double step)
+template <class Row>
+void correct_end(const ContactList &list, int k, Row *rows, double step, std::vector<DueLoad> &due)
 {
-  Row &i = rows[list.i[k]], &j = rows[list.j[k]];
   const auto c = list.constants_of(k);
-  const auto approach = Approach::of(i, j, c.radius_sum);
+  const auto approach = Approach::of(rows[list.i[k]], rows[list.j[k]], c.radius_sum);
   const double moved = -step * approach.closing_speed;
   const double beyond = c.break_overlap + approach.gap;
   if (!(moved > 0.0) || beyond > moved) return;
   const double s = jkr_root(c.break_overlap, c.inv_R, c.neck);
-  push_apart(i, j, (0.5 - beyond / moved) * force_at(c, s, approach.closing_speed, step));
+  push_apart(rows, list.i[k], list.j[k],
+             (0.5 - beyond / moved) * force_at(c, s, approach.closing_speed, step), due);
 }
 
 }    // namespace apf

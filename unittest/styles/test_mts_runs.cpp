@@ -79,6 +79,81 @@ TEST(RanksMtsRuns, restart_goes_on)
 }
 
 // ---------------------------------------------------------------------------------------------
+// Impacts that begin and end within the run, of pairs and at a wall: whichever step a run ends
+// with, the impulse of a contact that has just been made or has ended is not lost.
+
+State impacts(const std::string &commands, const std::string &from = "")
+{
+  Simulation sim;
+  const std::string floor =
+      "fix wall all wall/levelset plane z 0 NULL" + jkr + "\nneighbor 1 bin\n";
+  if (from.empty()) {
+    Scene scene;
+    scene.boundary = "p p f";
+    scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "\n";
+    const double V = 3.0 *
+        std::sqrt(2.0 * 0.935503 * Material().pair().F_C() * Material().pair().delta_C() /
+                  (pi / 12.0));
+    std::vector<Sphere> spheres;
+    for (int n = 0; n < 4; n++) {
+      spheres.push_back({1.5, 1.0 + 2.0 * n, 4.0});
+      spheres.push_back({2.5 + 0.003 * (n + 1), 1.0 + 2.0 * n, 4.0});
+      spheres.push_back({6.0, 1.0 + 2.0 * n, 0.5 + 0.003 * (n + 1)});
+    }
+    build(sim, spheres, scene);
+    for (int n = 0; n < 4; n++) {
+      set_motion(sim, 3 * n + 1, {0.5 * V, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      set_motion(sim, 3 * n + 2, {-0.5 * V, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      set_motion(sim, 3 * n + 3, {0.0, 0.0, -V}, {0.0, 0.0, 0.0});
+    }
+    sim.run(floor);
+  } else {
+    sim.run("read_restart " + from + "\n" + floor);
+  }
+  sim.run(commands);
+  return state_of(sim);
+}
+
+std::string times(int n, const std::string &command)
+{
+  std::string all;
+  for (int k = 0; k < n; k++) all += command + "\n";
+  return all;
+}
+
+TEST(RanksMtsRuns, impacts_through_the_ends_of_runs)
+{
+  struct Way {
+    std::string integrate;
+    int steps;
+  };
+  const std::string verlet = "fix nve all nve/sphere\ntimestep " + digits(8 * dt) + "\n";
+  for (const auto &[integrate, steps] : {Way{verlet, 80}, Way{mts(8, 8 * dt), 10}}) {
+    SCOPED_TRACE(integrate);
+    const State whole = impacts(integrate + "run " + std::to_string(steps));
+    // all have bounced, and fly apart at the speed that adhesion leaves them
+    for (int n = 0; n < 4; n++) {
+      EXPECT_LT(whole.v[9 * n], 0.0);
+      EXPECT_GT(whole.v[9 * n + 3], 0.0);
+      EXPECT_GT(whole.v[9 * n + 8], 0.0);
+    }
+    const State split = impacts(integrate + times(steps, "run 1"));
+    EXPECT_LT(difference(split.x, whole.x), 1e-10);
+    EXPECT_LT(difference(split.v, whole.v), 1e-10);
+    const State idle = impacts(integrate + times(steps, "run 0\nrun 1"));
+    EXPECT_LT(difference(idle.v, whole.v), 1e-10);
+
+    const std::string file = scratch_file("impacts");
+    for (int cut = 1; cut < steps; cut += steps / 10) {
+      impacts(integrate + "run " + std::to_string(cut) + "\nwrite_restart " + file);
+      const State after = impacts(integrate + "run " + std::to_string(steps - cut), file);
+      EXPECT_LT(difference(after.v, whole.v), 1e-10) << cut;
+    }
+    std::remove(file.c_str());
+  }
+}
+
+// ---------------------------------------------------------------------------------------------
 // energy, pressure, rows of pair/local and the load of the wall, at the end of the same time
 
 const std::string outputs =
