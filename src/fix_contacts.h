@@ -62,8 +62,8 @@ class FixContacts : public Fix {
   ContactStore store;
   UsedVelocity velocities;
 
-  // Part of the last loads that comes of contacts just made or ended. It is kept with the atoms from
-  // run to run, since nothing else shows it there.
+  // Part of the last loads that comes of contacts just made or ended. It is kept with the atoms
+  // from run to run, since nothing else shows it there.
   std::vector<apf::DueLoad> due;
   void recall_due(const apf::ContactTimes &);    // of the forces that are to be computed
   // loads that other ranks have put on atoms of this one are added; [local and ghost atoms][3]

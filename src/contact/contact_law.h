@@ -137,11 +137,11 @@ struct ContactTimes {
   double step;    // between calls, which limits dashpots; 0 = no limit                      [time]
 };
 
-// The normal dashpot's constant. Velocities that are `behind` the positions differ from those of now
-// by the acceleration since, so that a dashpot exerts 1 + 2 q times what it should and the spring
-// seems 1 + 2 q times as stiff, q = eta behind / (2 m). A constant that is 1 + q times as small
-// leaves the damping ratio as it is, and with it the restitution, to the order of q^2. Contacts at
-// rest do not notice.
+// The constant of the normal dashpot. Velocities that are `behind` the positions differ from those
+// of now by the acceleration since, so that a dashpot exerts 1 + 2 q times what it should and the
+// spring seems 1 + 2 q times as stiff, q = eta behind / (2 m). A constant that is 1 + q times as
+// small leaves the damping ratio as it is, and with it the restitution, to the order of q^2.
+// Contacts at rest do not notice.
 template <class Real>
 APF_INLINE Real lagging_dashpot(const ConstantsOf<Real> &c, const Real &s, double behind)
 {

@@ -179,8 +179,8 @@ TEST(MtsImpact, damped_restitution_is_that_of_another_integrator)
       worst[0] = std::max(worst[0], std::fabs(coarse[n] - exact[n]));
       worst[1] = std::max(worst[1], std::fabs(fine[n] - exact[n]));
     }
-    printf("C19, alpha %.3f: largest error of e %.4f, at a sixth of the step %.5f\n", alpha, worst[0],
-           worst[1]);
+    printf("C19, alpha %.3f: largest error of e %.4f, at a sixth of the step %.5f\n", alpha,
+           worst[0], worst[1]);
     EXPECT_LT(worst[0], 0.01) << alpha;
     EXPECT_LT(worst[1], 0.003) << alpha;
     EXPECT_LT(worst[1], 0.5 * worst[0]) << alpha;
