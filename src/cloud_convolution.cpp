@@ -203,9 +203,9 @@ void CloudConvolution::begin()
 void CloudConvolution::set_fluid(const CellGrid &fluid)
 {
   begin();
-  for (int z = grid.lo[2]; z <= grid.hi[2]; z++)
-    for (int y = grid.lo[1]; y <= grid.hi[1]; y++)
-      for (int x = grid.lo[0]; x <= grid.hi[0]; x++) brick[index(x, y, z)] = *fluid.at(x, y, z);
+  grid.for_own_cells([&](int x, int y, int z) {
+    brick[index(x, y, z)] = *fluid.at(x, y, z);
+  });
   end();
   fluid_share = brick;
 }

@@ -112,21 +112,19 @@ void FixFlowConcentration::init()
 void FixFlowConcentration::set_up()
 {
   static const char axes[] = "xyz";
-  int reach = 1;
-  for (int c = 0; c < domain->dimension; c++) {
+  for (int c = 0; c < domain->dimension; c++)
     if (domain->periodicity[c] && 2.0 * apf::cloud_reach * radius > domain->prd[c])
       error->all(
           FLERR, Error::NOLASTLINE,
           "{} {}: clouds reach to {} times their radius, which must not be more than half of "
           "the periodic box: cloud must be <= {:.6g} along {}, got {}",
           command, id, apf::cloud_reach, 0.5 * domain->prd[c] / apf::cloud_reach, axes[c], radius);
-    reach = std::max(reach, apf::cloud_cells(radius, domain->prd[c] / grid.n[c]));
-  }
-  grid.set_up(reach);
-  open.set_up(reach);
+  grid.set_up(1);
+  open.set_up(CloudSum::reach(grid, radius));
   mark_fluid();
   closed = walled;
   for (int c = 0; c < domain->dimension; c++) closed |= !grid.periodic[c];
+  direct.reset();
   convolution.reset();
   if (method == Method::FFT && !can_convolve())
     error->all(FLERR, Error::NOLASTLINE,
@@ -212,13 +210,14 @@ void FixFlowConcentration::pre_force_respa(int vflag, int ilevel, int /*iloop*/)
 
 void FixFlowConcentration::renew()
 {
+  members.clear();
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) members.push_back(i);
   grid.clear();
-  if (by_convolution())
-    convolve();
-  else
-    for (int i = 0; i < atom->nlocal; i++)
-      if (atom->mask[i] & groupbit) spread(atom->x[i], volume(i));
-  grid.sum_ghosts();
+  if (by_convolution()) convolve();
+  int left = !members.empty();
+  MPI_Allreduce(MPI_IN_PLACE, &left, 1, MPI_INT, MPI_MAX, world);
+  if (left) add_up();
   grid.fill_ghosts();
 }
 
@@ -237,21 +236,14 @@ bool FixFlowConcentration::by_convolution() const
 {
   if (method != Method::AUTO) return method == Method::FFT;
   if (!SlabTransform::available() || !can_convolve()) return false;
-  static constexpr double cell_cost = 0.4, axis_cost = 12.0;    // ns: bench/concentration.py
-  double particles = 0.0, cells = walled ? 2.0 : 1.0, along = 0.0;
-  for (int i = 0; i < atom->nlocal; i++) particles += (atom->mask[i] & groupbit) != 0;
+  auto particles = static_cast<double>(members.size());
   MPI_Allreduce(MPI_IN_PLACE, &particles, 1, MPI_DOUBLE, MPI_SUM, world);
-  for (int c = 0; c < domain->dimension; c++) {
-    const int width = 2 * apf::cloud_cells(radius, grid.spacing[c]) + 1;
-    cells *= width;
-    along += width;
-  }
-  const double direct = particles * (cells * cell_cost + along * axis_cost);
-  return CloudConvolution::cost(lmp, grid, radius, particles, closed) < direct;
+  return CloudConvolution::cost(lmp, grid, radius, particles, closed) <
+      CloudSum::cost(grid, radius, particles, walled);
 }
 
 /* ----------------------------------------------------------------------
-   A cloud of which little lies in the fluid would be multiplied, with its error: it is spread directly.
+   A cloud of which little lies in the fluid would be multiplied, with its error: such members remain.
 ------------------------------------------------------------------------- */
 
 void FixFlowConcentration::convolve()
@@ -261,22 +253,33 @@ void FixFlowConcentration::convolve()
     convolution = std::make_unique<CloudConvolution>(lmp, grid, radius);
     if (closed) convolution->set_fluid(open);
   }
+  size_t left = 0;
   convolution->begin();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const double *x = atom->x[i];
-    if (!convolution->locate(x)) complain_far(x);
+  for (int i : members) {
+    if (!convolution->locate(atom->x[i])) complain_far(atom->x[i]);
     const double share = closed ? convolution->share() : 1.0;
     if (share < least_share)
-      spread(x, volume(i));
+      members[left++] = i;
     else
       convolution->add(volume(i) / (share * grid.cell_volume));
   }
+  members.resize(left);
   convolution->end();
-  for (int z = grid.lo[2]; z <= grid.hi[2]; z++)
-    for (int y = grid.lo[1]; y <= grid.hi[1]; y++)
-      for (int x = grid.lo[0]; x <= grid.hi[0]; x++)
-        *grid.at(x, y, z) += *open.at(x, y, z) * convolution->at(x, y, z);
+  grid.for_own_cells([&](int x, int y, int z) {
+    *grid.at(x, y, z) = *open.at(x, y, z) * convolution->at(x, y, z);
+  });
+}
+
+void FixFlowConcentration::add_up()
+{
+  if (!direct) direct = std::make_unique<CloudSum>(lmp, this, open, radius, walled, 1);
+  direct->begin();
+  for (int i : members)
+    if (!direct->add(atom->x[i], volume(i) / grid.cell_volume)) complain_far(atom->x[i]);
+  direct->end();
+  grid.for_own_cells([&](int x, int y, int z) {
+    *grid.at(x, y, z) += *direct->grid.at(x, y, z);
+  });
 }
 
 void FixFlowConcentration::complain_far(const double *x) const
@@ -285,50 +288,6 @@ void FixFlowConcentration::complain_far(const double *x) const
              "{} {}: a particle at {:.8g} {:.8g} {:.8g} lies outside the box, or has moved more "
              "than half the neighbor skin since neighbor lists were built",
              command, id, x[0], x[1], x[2]);
-}
-
-/* ----------------------------------------------------------------------
-   what would fall on cells outside the fluid comes back to those inside
-------------------------------------------------------------------------- */
-
-void FixFlowConcentration::spread(const double *x, double volume)
-{
-  for (int c = 0; c < 3; c++) {
-    const double at = (x[c] - grid.origin[c]) * grid.inverse_spacing[c];
-    const int reach = apf::cloud_cells(radius, grid.spacing[c]);
-    const int lowest = grid.periodic[c] ? static_cast<int>(std::floor(at)) - reach : 0;
-    const int highest = grid.periodic[c] ? lowest + 2 * reach : grid.n[c] - 1;
-    weights[c].set(at, radius * grid.inverse_spacing[c], lowest, highest);
-    const int end = weights[c].first + static_cast<int>(weights[c].w.size()) - 1;
-    if (weights[c].w.empty() || weights[c].first < grid.first[c] || end > grid.last[c])
-      complain_far(x);
-  }
-  auto for_cells = [&](auto act) {
-    for (size_t z = 0; z < weights[2].w.size(); z++)
-      for (size_t y = 0; y < weights[1].w.size(); y++) {
-        const double yz = weights[2].w[z] * weights[1].w[y];
-        const int cy = weights[1].first + static_cast<int>(y);
-        const int cz = weights[2].first + static_cast<int>(z);
-        act(yz, grid.at(weights[0].first, cy, cz), open.at(weights[0].first, cy, cz));
-      }
-  };
-  const size_t nx = weights[0].w.size();
-  const double *wx = weights[0].w.data();
-  double share = 1.0;
-  if (walled) {
-    share = 0.0;
-    for_cells([&](double yz, const double *, const double *fluid) {
-      for (size_t k = 0; k < nx; k++) share += yz * wx[k] * fluid[k];
-    });
-    if (share == 0.0) return;    // deep in a wall
-  }
-  const double amount = volume / (share * grid.cell_volume);
-  for_cells([&](double yz, double *to, const double *fluid) {
-    if (walled)
-      for (size_t k = 0; k < nx; k++) to[k] += amount * yz * wx[k] * fluid[k];
-    else
-      for (size_t k = 0; k < nx; k++) to[k] += amount * yz * wx[k];
-  });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -374,7 +333,7 @@ double FixFlowConcentration::compute_vector(int n)
 
 double FixFlowConcentration::memory_usage()
 {
-  return grid.memory_usage() + open.memory_usage() +
+  return grid.memory_usage() + open.memory_usage() + (direct ? direct->grid.memory_usage() : 0.0) +
       (convolution ? convolution->memory_usage() : 0.0);
 }
 
@@ -402,22 +361,22 @@ void *FixFlowConcentration::get_griddata_by_index(int index)
   return index == 0 ? grid.lammps_data() : nullptr;
 }
 
-void FixFlowConcentration::pack_forward_grid(int, void *buf, int n, int *list)
+void FixFlowConcentration::pack_forward_grid(int which, void *buf, int n, int *list)
 {
-  grid.pack(static_cast<double *>(buf), n, list);
+  grid_of(which).pack(static_cast<double *>(buf), n, list);
 }
 
-void FixFlowConcentration::unpack_forward_grid(int, void *buf, int n, int *list)
+void FixFlowConcentration::unpack_forward_grid(int which, void *buf, int n, int *list)
 {
-  grid.unpack_set(static_cast<double *>(buf), n, list);
+  grid_of(which).unpack_set(static_cast<double *>(buf), n, list);
 }
 
-void FixFlowConcentration::pack_reverse_grid(int, void *buf, int n, int *list)
+void FixFlowConcentration::pack_reverse_grid(int which, void *buf, int n, int *list)
 {
-  grid.pack(static_cast<double *>(buf), n, list);
+  grid_of(which).pack(static_cast<double *>(buf), n, list);
 }
 
-void FixFlowConcentration::unpack_reverse_grid(int, void *buf, int n, int *list)
+void FixFlowConcentration::unpack_reverse_grid(int which, void *buf, int n, int *list)
 {
-  grid.unpack_add(static_cast<double *>(buf), n, list);
+  grid_of(which).unpack_add(static_cast<double *>(buf), n, list);
 }

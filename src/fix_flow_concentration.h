@@ -11,10 +11,10 @@ FixStyle(flow/concentration,FixFlowConcentration);
 
 #include "cell_grid.h"
 #include "cloud_convolution.h"
+#include "cloud_sum.h"
 #include "fix.h"
 
 #include "flow/fluid_block.h"
-#include "flow/gaussian_cloud.h"
 
 #include <memory>
 #include <string>
@@ -54,22 +54,24 @@ class FixFlowConcentration : public Fix {
   double radius = 0.0;    // R of a cloud                                            [length]
   int every = 0;          // time steps between updates; 0 = fluid steps
   enum class Method { AUTO, DIRECT, FFT } method = Method::AUTO;
-  bool walled = false;    // some cells hold no fluid
-  bool closed = false;    // that, or the box is not periodic
-  apf::CloudWeights weights[3];
-  std::unique_ptr<CloudConvolution> convolution;    // made when it is needed
+  bool walled = false;                 // some cells hold no fluid
+  bool closed = false;                 // that, or the box is not periodic
+  std::unique_ptr<CloudSum> direct;    // both made when they are needed
+  std::unique_ptr<CloudConvolution> convolution;
+  std::vector<int> members;    // particles whose clouds are to be added
 
   std::array<int, 3> parse_cells(int narg, char **arg);
   void parse(int narg, char **arg);
   void set_up();
   void mark_fluid();
   bool is_fluid(double *x) const;
+  CellGrid &grid_of(int which) { return which ? direct->grid : grid; }
   void renew();
   double volume(int i) const;
   bool can_convolve() const;
   bool by_convolution() const;
   void convolve();
-  void spread(const double *x, double volume);
+  void add_up();
   [[noreturn]] void complain_far(const double *x) const;
 };
 
