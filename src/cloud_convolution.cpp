@@ -64,8 +64,9 @@ CloudConvolution::Shape CloudConvolution::shape_of(LAMMPS *lmp, const CellGrid &
   return shape;
 }
 
-// ns for a weight of a spline, and for a cell and each doubling of their number: bench/concentration.py
-static constexpr double weight_cost = 1.0, cell_cost = 10.0, doubling_cost = 1.0;
+// ns for a weight of a spline, and for a cell of the grid at each doubling of their number:
+// bench/concentration.py
+static constexpr double weight_cost = 0.9, cell_cost = 0.8;
 
 double CloudConvolution::cost(LAMMPS *lmp, const CellGrid &grid, double radius, double particles,
                               bool closed)
@@ -76,7 +77,7 @@ double CloudConvolution::cost(LAMMPS *lmp, const CellGrid &grid, double radius, 
     cells *= shape.n[c];
     weights *= shape.order[c];
   }
-  return particles * weights * weight_cost + cells * (cell_cost + doubling_cost * std::log2(cells));
+  return particles * weights * weight_cost + cells * std::log2(cells) * cell_cost;
 }
 
 /* ----------------------------------------------------------------------
