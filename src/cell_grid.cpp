@@ -12,8 +12,10 @@
 
 using namespace LAMMPS_NS;
 
-CellGrid::CellGrid(LAMMPS *_lmp, Fix *_owner, const std::array<int, 3> &count, int _columns) :
-    n(count), columns(_columns), lmp(_lmp), owner(_owner), flat(_lmp->domain->dimension == 2)
+CellGrid::CellGrid(LAMMPS *_lmp, Fix *_owner, const std::array<int, 3> &count, int _columns,
+                   int _which) :
+    n(count),
+    columns(_columns), lmp(_lmp), owner(_owner), which(_which), flat(_lmp->domain->dimension == 2)
 {
 }
 
@@ -77,13 +79,6 @@ void CellGrid::point_to_values()
 
 /* ---------------------------------------------------------------------- */
 
-void CellGrid::for_own(const std::function<void(double *)> &act)
-{
-  for (int z = lo[2]; z <= hi[2]; z++)
-    for (int y = lo[1]; y <= hi[1]; y++)
-      for (int x = lo[0]; x <= hi[0]; x++) act(at(x, y, z));
-}
-
 void CellGrid::clear()
 {
   std::fill(values.begin(), values.end(), 0.0);
@@ -92,20 +87,20 @@ void CellGrid::clear()
 void CellGrid::sum_ghosts()
 {
   if (flat)
-    grid2d->reverse_comm(Grid2d::FIX, owner, 0, columns, sizeof(double), out.data(), in.data(),
+    grid2d->reverse_comm(Grid2d::FIX, owner, which, columns, sizeof(double), out.data(), in.data(),
                          MPI_DOUBLE);
   else
-    grid3d->reverse_comm(Grid3d::FIX, owner, 0, columns, sizeof(double), out.data(), in.data(),
+    grid3d->reverse_comm(Grid3d::FIX, owner, which, columns, sizeof(double), out.data(), in.data(),
                          MPI_DOUBLE);
 }
 
 void CellGrid::fill_ghosts()
 {
   if (flat)
-    grid2d->forward_comm(Grid2d::FIX, owner, 0, columns, sizeof(double), out.data(), in.data(),
+    grid2d->forward_comm(Grid2d::FIX, owner, which, columns, sizeof(double), out.data(), in.data(),
                          MPI_DOUBLE);
   else
-    grid3d->forward_comm(Grid3d::FIX, owner, 0, columns, sizeof(double), out.data(), in.data(),
+    grid3d->forward_comm(Grid3d::FIX, owner, which, columns, sizeof(double), out.data(), in.data(),
                          MPI_DOUBLE);
 }
 

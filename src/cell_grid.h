@@ -17,8 +17,9 @@ class LAMMPS;
 
 class CellGrid {
  public:
-  // owner: the fix whose functions pack_forward_grid() and so on call those below
-  CellGrid(LAMMPS *lmp, Fix *owner, const std::array<int, 3> &cells, int columns);
+  // owner: the fix whose functions pack_forward_grid() and so on call those below; which: what they
+  // get to tell its grids from each other
+  CellGrid(LAMMPS *lmp, Fix *owner, const std::array<int, 3> &cells, int columns, int which = 0);
   ~CellGrid();
 
   // Anew for the present box and its division among ranks; values are 0 then. reach: cells beyond
@@ -42,7 +43,18 @@ class CellGrid {
   }
   const double *at(int x, int y, int z) const { return const_cast<CellGrid *>(this)->at(x, y, z); }
 
-  void for_own(const std::function<void(double *)> &act);
+  template <class Act> void for_own_cells(Act act) const    // act(x, y, z)
+  {
+    for (int z = lo[2]; z <= hi[2]; z++)
+      for (int y = lo[1]; y <= hi[1]; y++)
+        for (int x = lo[0]; x <= hi[0]; x++) act(x, y, z);
+  }
+  void for_own(const std::function<void(double *)> &act)    // act(values of a cell)
+  {
+    for_own_cells([&](int x, int y, int z) {
+      act(at(x, y, z));
+    });
+  }
 
   void clear();
   void sum_ghosts();     // values of ghosts are added to those of their owners
@@ -66,6 +78,7 @@ class CellGrid {
  private:
   LAMMPS *lmp;
   Fix *owner;
+  int which;
   bool flat;
   int size[3];
   std::unique_ptr<Grid2d> grid2d;

@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -59,13 +60,23 @@ void FixFlowConcentration::parse(int narg, char **arg)
 {
   for (int iarg = 6; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
-    if (word != "cloud" && word != "every")
-      error->all(FLERR, iarg, "{} keyword must be cloud or every, got {}", command, word);
+    if (word != "cloud" && word != "every" && word != "method")
+      error->all(FLERR, iarg, "{} keyword must be cloud, every or method, got {}", command, word);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix flow/concentration " + word, error);
     if (word == "every") {
       every = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
       if (every < 1)
         error->all(FLERR, iarg + 1, "{} every must be >= 1, got {}", command, arg[iarg + 1]);
+    } else if (word == "method") {
+      const std::map<std::string, Method> methods = {
+          {"auto", Method::AUTO}, {"direct", Method::DIRECT}, {"fft", Method::FFT}};
+      const auto found = methods.find(arg[iarg + 1]);
+      if (found == methods.end())
+        error->all(FLERR, iarg + 1, "{} method must be auto, direct or fft, got {}", command,
+                   arg[iarg + 1]);
+      method = found->second;
+      if (method == Method::FFT && !SlabTransform::available())
+        error->all(FLERR, iarg + 1, "{} method fft needs APF built with FFTW for MPI", command);
     } else {
       radius = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
       if (!(radius > 0.0 && std::isfinite(radius)))
@@ -101,19 +112,31 @@ void FixFlowConcentration::init()
 void FixFlowConcentration::set_up()
 {
   static const char axes[] = "xyz";
-  int reach = 1;
-  for (int c = 0; c < domain->dimension; c++) {
+  for (int c = 0; c < domain->dimension; c++)
     if (domain->periodicity[c] && 2.0 * apf::cloud_reach * radius > domain->prd[c])
       error->all(
           FLERR, Error::NOLASTLINE,
           "{} {}: clouds reach to {} times their radius, which must not be more than half of "
           "the periodic box: cloud must be <= {:.6g} along {}, got {}",
           command, id, apf::cloud_reach, 0.5 * domain->prd[c] / apf::cloud_reach, axes[c], radius);
-    reach = std::max(reach, apf::cloud_cells(radius, domain->prd[c] / grid.n[c]));
-  }
-  grid.set_up(reach);
-  open.set_up(reach);
+  grid.set_up(1);
+  open.set_up(CloudSum::reach(grid, radius));
   mark_fluid();
+  closed = walled;
+  for (int c = 0; c < domain->dimension; c++) closed |= !grid.periodic[c];
+  direct.reset();
+  convolution.reset();
+  if (method == Method::FFT && !can_convolve())
+    error->all(FLERR, Error::NOLASTLINE,
+               "{} {}: method fft needs a cloud of at least {} widths of a cell along each axis",
+               command, id, apf::least_convolved);
+}
+
+bool FixFlowConcentration::can_convolve() const
+{
+  for (int c = 0; c < domain->dimension; c++)
+    if (radius * grid.inverse_spacing[c] < apf::least_convolved) return false;
+  return true;
 }
 
 void FixFlowConcentration::reset_grid()
@@ -185,68 +208,86 @@ void FixFlowConcentration::pre_force_respa(int vflag, int ilevel, int /*iloop*/)
   if (ilevel == dynamic_cast<Respa *>(update->integrate)->nlevels - 1) pre_force(vflag);
 }
 
-/* ----------------------------------------------------------------------
-   In two dimensions a particle counts in a slab as thick as itself.
-------------------------------------------------------------------------- */
-
 void FixFlowConcentration::renew()
 {
-  const double *r = atom->radius;
-  const bool flat = domain->dimension == 2;
-  grid.clear();
+  members.clear();
   for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit)
-      spread(atom->x[i], 4.0 / 3.0 * MathConst::MY_PI * r[i] * r[i] * (flat ? 0.5 : r[i]));
-  grid.sum_ghosts();
+    if (atom->mask[i] & groupbit) members.push_back(i);
+  grid.clear();
+  if (by_convolution()) convolve();
+  int left = !members.empty();
+  MPI_Allreduce(MPI_IN_PLACE, &left, 1, MPI_INT, MPI_MAX, world);
+  if (left) add_up();
   grid.fill_ghosts();
 }
 
+// In two dimensions a particle counts in a slab as thick as itself.
+double FixFlowConcentration::volume(int i) const
+{
+  const double r = atom->radius[i];
+  return 4.0 / 3.0 * MathConst::MY_PI * r * r * (domain->dimension == 2 ? 0.5 : r);
+}
+
 /* ----------------------------------------------------------------------
-   what would fall on cells outside the fluid comes back to those inside
+   The cheaper method, from the work of all ranks: a choice that does not depend on their number.
 ------------------------------------------------------------------------- */
 
-void FixFlowConcentration::spread(const double *x, double volume)
+bool FixFlowConcentration::by_convolution() const
 {
-  for (int c = 0; c < 3; c++) {
-    const double at = (x[c] - grid.origin[c]) * grid.inverse_spacing[c];
-    const int reach = apf::cloud_cells(radius, grid.spacing[c]);
-    const int lowest = grid.periodic[c] ? static_cast<int>(std::floor(at)) - reach : 0;
-    const int highest = grid.periodic[c] ? lowest + 2 * reach : grid.n[c] - 1;
-    weights[c].set(at, radius * grid.inverse_spacing[c], lowest, highest);
-    const int end = weights[c].first + static_cast<int>(weights[c].w.size()) - 1;
-    if (weights[c].w.empty() || weights[c].first < grid.first[c] || end > grid.last[c])
-      error->one(
-          FLERR, Error::NOLASTLINE,
-          "{} {}: a particle at {:.8g} {:.8g} {:.8g} lies outside the box, or has moved more "
-          "than half the neighbor skin since neighbor lists were built",
-          command, id, x[0], x[1], x[2]);
+  if (method != Method::AUTO) return method == Method::FFT;
+  if (!SlabTransform::available() || !can_convolve()) return false;
+  auto particles = static_cast<double>(members.size());
+  MPI_Allreduce(MPI_IN_PLACE, &particles, 1, MPI_DOUBLE, MPI_SUM, world);
+  return CloudConvolution::cost(lmp, grid, radius, particles, closed) <
+      CloudSum::cost(grid, radius, particles, walled);
+}
+
+/* ----------------------------------------------------------------------
+   A cloud of which little lies in the fluid would be multiplied, with its error: such members remain.
+------------------------------------------------------------------------- */
+
+void FixFlowConcentration::convolve()
+{
+  static constexpr double least_share = 0.1;
+  if (!convolution) {
+    convolution = std::make_unique<CloudConvolution>(lmp, grid, radius);
+    if (closed) convolution->set_fluid(open);
   }
-  auto for_cells = [&](auto act) {
-    for (size_t z = 0; z < weights[2].w.size(); z++)
-      for (size_t y = 0; y < weights[1].w.size(); y++) {
-        const double yz = weights[2].w[z] * weights[1].w[y];
-        const int cy = weights[1].first + static_cast<int>(y);
-        const int cz = weights[2].first + static_cast<int>(z);
-        act(yz, grid.at(weights[0].first, cy, cz), open.at(weights[0].first, cy, cz));
-      }
-  };
-  const size_t nx = weights[0].w.size();
-  const double *wx = weights[0].w.data();
-  double share = 1.0;
-  if (walled) {
-    share = 0.0;
-    for_cells([&](double yz, const double *, const double *fluid) {
-      for (size_t k = 0; k < nx; k++) share += yz * wx[k] * fluid[k];
-    });
-    if (share == 0.0) return;    // deep in a wall
-  }
-  const double amount = volume / (share * grid.cell_volume);
-  for_cells([&](double yz, double *to, const double *fluid) {
-    if (walled)
-      for (size_t k = 0; k < nx; k++) to[k] += amount * yz * wx[k] * fluid[k];
+  size_t left = 0;
+  convolution->begin();
+  for (int i : members) {
+    if (!convolution->locate(atom->x[i])) complain_far(atom->x[i]);
+    const double share = closed ? convolution->share() : 1.0;
+    if (share < least_share)
+      members[left++] = i;
     else
-      for (size_t k = 0; k < nx; k++) to[k] += amount * yz * wx[k];
+      convolution->add(volume(i) / (share * grid.cell_volume));
+  }
+  members.resize(left);
+  convolution->end();
+  grid.for_own_cells([&](int x, int y, int z) {
+    *grid.at(x, y, z) = *open.at(x, y, z) * convolution->at(x, y, z);
   });
+}
+
+void FixFlowConcentration::add_up()
+{
+  if (!direct) direct = std::make_unique<CloudSum>(lmp, this, open, radius, walled, 1);
+  direct->begin();
+  for (int i : members)
+    if (!direct->add(atom->x[i], volume(i) / grid.cell_volume)) complain_far(atom->x[i]);
+  direct->end();
+  grid.for_own_cells([&](int x, int y, int z) {
+    *grid.at(x, y, z) += *direct->grid.at(x, y, z);
+  });
+}
+
+void FixFlowConcentration::complain_far(const double *x) const
+{
+  error->one(FLERR, Error::NOLASTLINE,
+             "{} {}: a particle at {:.8g} {:.8g} {:.8g} lies outside the box, or has moved more "
+             "than half the neighbor skin since neighbor lists were built",
+             command, id, x[0], x[1], x[2]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -266,7 +307,7 @@ void FixFlowConcentration::sample(const apf::PointBlock &points, apf::Lanes &con
       sum += weight[k] *
           *grid.at(k & 1 ? grid.next(0, base[0]) : base[0], k & 2 ? grid.next(1, base[1]) : base[1],
                    k & 4 ? grid.next(2, base[2]) : base[2]);
-    concentration[l] = sum;
+    concentration[l] = MAX(sum, 0.0);    // the error of a convolution has both signs
   }
 }
 
@@ -292,7 +333,8 @@ double FixFlowConcentration::compute_vector(int n)
 
 double FixFlowConcentration::memory_usage()
 {
-  return grid.memory_usage() + open.memory_usage();
+  return grid.memory_usage() + open.memory_usage() + (direct ? direct->grid.memory_usage() : 0.0) +
+      (convolution ? convolution->memory_usage() : 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -319,22 +361,22 @@ void *FixFlowConcentration::get_griddata_by_index(int index)
   return index == 0 ? grid.lammps_data() : nullptr;
 }
 
-void FixFlowConcentration::pack_forward_grid(int, void *buf, int n, int *list)
+void FixFlowConcentration::pack_forward_grid(int which, void *buf, int n, int *list)
 {
-  grid.pack(static_cast<double *>(buf), n, list);
+  grid_of(which).pack(static_cast<double *>(buf), n, list);
 }
 
-void FixFlowConcentration::unpack_forward_grid(int, void *buf, int n, int *list)
+void FixFlowConcentration::unpack_forward_grid(int which, void *buf, int n, int *list)
 {
-  grid.unpack_set(static_cast<double *>(buf), n, list);
+  grid_of(which).unpack_set(static_cast<double *>(buf), n, list);
 }
 
-void FixFlowConcentration::pack_reverse_grid(int, void *buf, int n, int *list)
+void FixFlowConcentration::pack_reverse_grid(int which, void *buf, int n, int *list)
 {
-  grid.pack(static_cast<double *>(buf), n, list);
+  grid_of(which).pack(static_cast<double *>(buf), n, list);
 }
 
-void FixFlowConcentration::unpack_reverse_grid(int, void *buf, int n, int *list)
+void FixFlowConcentration::unpack_reverse_grid(int which, void *buf, int n, int *list)
 {
-  grid.unpack_add(static_cast<double *>(buf), n, list);
+  grid_of(which).unpack_add(static_cast<double *>(buf), n, list);
 }

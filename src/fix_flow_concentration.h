@@ -10,11 +10,13 @@ FixStyle(flow/concentration,FixFlowConcentration);
 #define LMP_FIX_FLOW_CONCENTRATION_H
 
 #include "cell_grid.h"
+#include "cloud_convolution.h"
+#include "cloud_sum.h"
 #include "fix.h"
 
 #include "flow/fluid_block.h"
-#include "flow/gaussian_cloud.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -51,16 +53,26 @@ class FixFlowConcentration : public Fix {
   CellGrid open;          // 1 where there is fluid, else 0; used if `walled`
   double radius = 0.0;    // R of a cloud                                            [length]
   int every = 0;          // time steps between updates; 0 = fluid steps
-  bool walled = false;
-  apf::CloudWeights weights[3];
+  enum class Method { AUTO, DIRECT, FFT } method = Method::AUTO;
+  bool walled = false;                 // some cells hold no fluid
+  bool closed = false;                 // that, or the box is not periodic
+  std::unique_ptr<CloudSum> direct;    // both made when they are needed
+  std::unique_ptr<CloudConvolution> convolution;
+  std::vector<int> members;    // particles whose clouds are to be added
 
   std::array<int, 3> parse_cells(int narg, char **arg);
   void parse(int narg, char **arg);
   void set_up();
   void mark_fluid();
   bool is_fluid(double *x) const;
+  CellGrid &grid_of(int which) { return which ? direct->grid : grid; }
   void renew();
-  void spread(const double *x, double volume);
+  double volume(int i) const;
+  bool can_convolve() const;
+  bool by_convolution() const;
+  void convolve();
+  void add_up();
+  [[noreturn]] void complain_far(const double *x) const;
 };
 
 }    // namespace LAMMPS_NS

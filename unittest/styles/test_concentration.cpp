@@ -3,6 +3,8 @@
 
 #include "scenes.h"
 
+#include "comm.h"
+
 #include <array>
 
 namespace {
@@ -161,6 +163,117 @@ TEST(RanksConcentration, does_not_depend_on_ranks)
   EXPECT_LT(difference(gather(sim, "x"), alone), 1e-12);
 }
 
+// largest difference of two grids' cells, and the largest value of the second
+static std::array<double, 2> compare(Simulation &sim, const std::string &a, const std::string &b)
+{
+  const auto one = dumped(sim, "f_" + a + ":grid:data", scratch_file(a));
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto two = dumped(sim, "f_" + b + ":grid:data", scratch_file(b));
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_EQ(one.size(), two.size());
+  EXPECT_GT(one.size(), 0u);
+  double worst = 0.0, peak = 0.0;
+  for (size_t k = 0; k < one.size(); k++) {
+    worst = std::max(worst, std::fabs(one[k] - two[k]));
+    peak = std::max(peak, two[k]);
+  }
+  if (sim.lammps()->comm->me == 0) {
+    std::filesystem::remove(scratch_file(a));
+    std::filesystem::remove(scratch_file(b));
+  }
+  return {worst, peak};
+}
+
+// by both methods, which differ by a little, but do differ
+static void expect_alike(Simulation &sim, const std::string &what)
+{
+  sim.run("run 0\n");
+  EXPECT_NEAR(sim.value("f_fft[1]") / volume(sim), 1.0, 1e-12) << what;
+  const auto [worst, peak] = compare(sim, "fft", "direct");
+  EXPECT_LT(worst, 1e-6 * peak) << what;
+  EXPECT_GT(worst, 1e-13 * peak) << what;
+}
+
+TEST(RanksConcentration, convolution_agrees_with_the_direct_sum)
+{
+  for (const std::string &boundary :
+       {std::string("p p p"), std::string("p f p"), std::string("f f f")}) {
+    Simulation sim;
+    sim.run(crowd(boundary) +
+            "fix fft all flow/concentration 40 30 24 cloud 0.75 method fft\n"
+            "fix direct all flow/concentration 40 30 24 cloud 0.75 method direct\n"
+            "velocity all create 1.0 99 loop geom\n");
+    expect_alike(sim, boundary);
+    if (boundary != "p p p") continue;
+    sim.run("run 50\n");
+    expect_alike(sim, "after particles moved");
+    sim.run("comm_style tiled\nbalance 1.0 rcb\nrun 20\n");
+    expect_alike(sim, "after rcb");
+  }
+}
+
+TEST(RanksConcentration, convolution_returns_what_would_fall_in_walls)
+{
+  Simulation sim;
+  std::string scene = crowd("p f p");
+  const std::string none = "pair_style zero 0.5 nocoeff\npair_coeff * *";
+  scene.replace(scene.find(none), none.size(),
+                "pair_style granular/adhesive\npair_coeff * * jkr 1e4 0.3 0");
+  sim.run(scene +
+          "fix wall all wall/levelset cylinder x 4 3 2.9 inside jkr 1e4 0.3 0\n"
+          "region outer cylinder x 4 3 2.8 INF INF side out\ndelete_atoms region outer "
+          "compress yes\nfix fft all flow/concentration 40 32 24 cloud 0.75 method fft\n"
+          "fix direct all flow/concentration 40 32 24 cloud 0.75 method direct\n");
+  expect_alike(sim, "cylinder");
+}
+
+TEST(RanksConcentration, convolution_in_the_plane)
+{
+  for (const std::string &boundary : {std::string("p p p"), std::string("f p p")}) {
+    Simulation sim;
+    sim.run("units lj\ndimension 2\natom_style sphere\ncomm_modify vel yes\nboundary " + boundary +
+            "\nregion box block 0 10 0 8 -0.5 0.5\ncreate_box 1 box\n"
+            "create_atoms 1 random 100 4711 box\nset type 1 diameter 0.2 density 1\n"
+            "pair_style zero 0.5 nocoeff\npair_coeff * *\nneighbor 0.4 bin\n"
+            "fix move all nve/sphere\nfix flat all enforce2d\n"
+            "fix fft all flow/concentration 40 30 1 cloud 0.75 method fft\n"
+            "fix direct all flow/concentration 40 30 1 cloud 0.75 method direct\nrun 0\n");
+    EXPECT_NEAR(sim.value("f_fft[1]") / (100.0 * pi / 6.0 * 0.04), 1.0, 1e-12) << boundary;
+    const auto [worst, peak] = compare(sim, "fft", "direct");
+    EXPECT_LT(worst, 1e-6 * peak) << boundary;
+    EXPECT_GT(worst, 1e-13 * peak) << boundary;
+  }
+}
+
+TEST(RanksConcentration, a_cloud_of_which_most_is_in_a_wall_is_as_direct)
+{
+  // in a corner of the box behind a gap of 0.4: erf(0.2) ((1 + erf(0.2))/2)^2 = 0.083 of the cloud
+  Simulation sim;
+  std::string scene = one("0.2 0.2 0.2", "f f f");
+  const std::string none = "pair_style zero 0.5 nocoeff\npair_coeff * *";
+  scene.replace(scene.find(none), none.size(),
+                "pair_style granular/adhesive\npair_coeff * * jkr 1e4 0.3 0");
+  sim.run(scene +
+          "fix gap all wall/levelset plane x NULL 0.4 jkr 1e4 0.3 0\n"
+          "fix fft all flow/concentration 50 50 50 cloud 1.0 method fft\n"
+          "fix direct all flow/concentration 50 50 50 cloud 1.0 method direct\nrun 0\n");
+  EXPECT_NEAR(sim.value("f_fft[1]") / volume(sim), 1.0, 1e-12);
+  const auto [worst, peak] = compare(sim, "fft", "direct");
+  EXPECT_LT(worst, 1e-14 * peak);
+}
+
+TEST(Concentration, the_cheaper_method_is_chosen)
+{
+  for (int n : {1, 1000}) {
+    const std::string expected = n == 1 ? "direct" : "fft", grid = "flow/concentration 40 32 24";
+    Simulation sim;
+    // margins make the convolution dearer
+    sim.run(crowd(n == 1 ? "f f f" : "p p p", n) + "fix auto all " + grid +
+            " cloud 0.75\nfix other all " + grid + " cloud 0.75 method " + expected + "\nrun 0\n");
+    EXPECT_EQ(compare(sim, "auto", "other")[0], 0.0) << expected;
+  }
+}
+
 TEST(Concentration, in_the_plane_a_particle_counts_in_a_slab_of_its_own_thickness)
 {
   Simulation sim;
@@ -252,7 +365,10 @@ TEST(ConcentrationErrors, name_what_is_wrong)
       {"fix c all flow/concentration 9 9 9 cloud 2", "cloud must be <= 1.25"},
       {"fix c all flow/concentration 9 9 9 every 0", "every must be >= 1, got 0"},
       {"fix c all flow/concentration 9 9 9 every 2", "requires keyword cloud"},
-      {"fix c all flow/concentration 9 9 9 blob 2", "must be cloud or every, got blob"},
+      {"fix c all flow/concentration 9 9 9 blob 2", "must be cloud, every or method, got blob"},
+      {"fix c all flow/concentration 9 9 9 method dft", "must be auto, direct or fft, got dft"},
+      {"fix c all flow/concentration 25 9 9 cloud 1 method fft",
+       "of at least 2.6 widths of a cell"},
       {"fix d all flow/force air drag difelice concentration q", "fix q does not exist"},
       {"fix d all flow/force air drag difelice concentration air", "got flow/field"},
       {"fix d all flow/force air drag stokes feedback yes", "takes the grid of fix"},
