@@ -1,8 +1,8 @@
 // Clouds of particles on a grid by convolution: particles are put on a grid by B-splines, which is
 // then smoothed in Fourier space (flow/cloud_spectrum.h). Closed borders get margins that clouds
 // run out into. A cloud's share in the fluid is known to the last bits before it is spread: the
-// spread of the fluid's cells, taken at the particle with the weights of its spline, is the sum of its
-// cloud over them.
+// spread of the fluid's cells, taken at the particle with the weights of its spline, is the sum of
+// its cloud over them.
 
 #ifndef LMP_CLOUD_CONVOLUTION_H
 #define LMP_CLOUD_CONVOLUTION_H
@@ -31,8 +31,8 @@ class CloudConvolution : protected Pointers {
   void set_fluid(const CellGrid &fluid);
 
   // Between begin() and end() one particle after another: its position, false if that is too far
-  // from this rank's part of the box; then how much of its cloud lies in the fluid, or the amount that
-  // it adds. After end(), collective, `at` is the sum of clouds in cells of this rank.
+  // from this rank's part of the box; then how much of its cloud lies in the fluid, or the amount
+  // that it adds. After end(), collective, `at` is the sum of clouds in cells of this rank.
   void begin();
   bool locate(const double *x);
   double share() const;

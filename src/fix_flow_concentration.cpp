@@ -243,7 +243,8 @@ bool FixFlowConcentration::by_convolution() const
 }
 
 /* ----------------------------------------------------------------------
-   A cloud of which little lies in the fluid would be multiplied, with its error: such members remain.
+   A cloud of which little lies in the fluid would be multiplied, with its error: such members
+   remain.
 ------------------------------------------------------------------------- */
 
 void FixFlowConcentration::convolve()

@@ -2,8 +2,8 @@
 // B-spline M_p of order p, as wide as p cells: with Fourier transform sinc^p(k h/2) for cells of
 // width h. Multiplied in Fourier space by
 //   exp(-k^2 R^2/4) / sinc^(p-1)(k h/2),   sinc(q) = sin(q)/q,
-// it becomes the cloud's mean over each cell, exp(-k^2 R^2/4) sinc(k h/2): what the spline smeared out
-// is taken back. What remains is that the grid takes waves beyond its shortest one for longer
+// it becomes the cloud's mean over each cell, exp(-k^2 R^2/4) sinc(k h/2): what the spline smeared
+// out is taken back. What remains is that the grid takes waves beyond its shortest one for longer
 // ones; `alias_error` bounds that. B-splines as in smooth particle mesh Ewald: Essmann et al.,
 // J. Chem. Phys. 103, 8577 (1995), doi:10.1063/1.470117.
 // Lengths are in cells: radius = R/h, wave = k h.
@@ -45,8 +45,8 @@ inline double cloud_spectrum(int order, double radius, double wave)
   return std::exp(-0.25 * wave * wave * radius * radius) / std::pow(sinc(0.5 * wave), order - 1);
 }
 
-// Largest error along one axis, over the peak of the cloud: waves that the grid mistakes, of the spline
-// and of the cloud itself.
+// Largest error along one axis, over the peak of the cloud: waves that the grid mistakes, of the
+// spline and of the cloud itself.
 inline double alias_error(int order, double radius)
 {
   constexpr double pi = 3.14159265358979323846;

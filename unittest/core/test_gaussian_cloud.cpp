@@ -1,5 +1,5 @@
-// Clouds of particles on cells. Facts: moments of Gaussians and B-splines, discrete Fourier transform
-// written out, closed form of a cell's mean.
+// Clouds of particles on cells. Facts: moments of Gaussians and B-splines, discrete Fourier
+// transform written out, closed form of a cell's mean.
 
 #include "flow/cloud_spectrum.h"
 #include "flow/gaussian_cloud.h"
