@@ -94,15 +94,6 @@ class Mesh {
             if (p >= 0) border[p] = true;
     return border;
   }
-
-  Point centre(int cell) const
-  {
-    Point sum{};
-    const int n = info(shapes[cell]).corners;
-    for (int k = 0; k < n; k++)
-      for (int c = 0; c < 3; c++) sum[c] += points[corners[cell][k]][c] / n;
-    return sum;
-  }
 };
 
 }    // namespace flowgrid

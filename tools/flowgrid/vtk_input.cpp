@@ -1,5 +1,7 @@
 #include "vtk_input.h"
 
+#include "cell_to_point.h"
+
 #include <vtkAppendFilter.h>
 #include <vtkCGNSReader.h>
 #include <vtkCellData.h>
@@ -42,7 +44,7 @@ namespace flowgrid {
 struct VtkInput::Vtk {
   vtkSmartPointer<vtkAlgorithm> reader;
   vtkSmartPointer<vtkUnstructuredGrid> grid;    // all blocks in one, coincident points merged
-  std::vector<int> origin_cell;                 // VTK's cell of each cell of the mesh
+  std::unique_ptr<CellToPoint> to_points;       // where a field is of cells
   bool foam = false;
   std::string case_folder;
   std::vector<std::string> wall_names;
@@ -251,7 +253,6 @@ void VtkInput::make_mesh()
       int k = 0;
       for (int corner : order) of[k++] = static_cast<int>(cell->GetPointId(corner));
       cells.add(shape, of);
-      vtk->origin_cell.push_back(static_cast<int>(c));
     };
     switch (cell->GetCellType()) {
       case VTK_HEXAHEDRON:
@@ -274,7 +275,6 @@ void VtkInput::make_mesh()
     for (vtkIdType k = 0; k + corners <= pieces->GetNumberOfIds(); k += corners) {
       for (int n = 0; n < corners; n++) of[n] = static_cast<int>(pieces->GetId(k + n));
       cells.add(solid ? Shape::TETRA : Shape::TRIANGLE, of);
-      vtk->origin_cell.push_back(static_cast<int>(c));
     }
   }
   cells.link();
@@ -356,25 +356,28 @@ Field VtkInput::field(const std::string &name, int components, const char *what)
   return result;
 }
 
-// Means of the cells around each point, weighted by the inverse of their distance.
+// Values at the points of VTK's cells; the fit is made once, for all fields and times.
 std::vector<double> VtkInput::from_cells(const std::vector<double> &values, int components) const
 {
-  std::vector<double> sum(cells.points.size() * components, 0.0), weight(cells.points.size(), 0.0);
-  for (int c = 0; c < cells.size(); c++) {
-    const Point centre = cells.centre(c);
-    for (int k = 0; k < info(cells.shapes[c]).corners; k++) {
-      const int p = cells.corners[c][k];
-      const Point &x = cells.points[p];
-      const double w = 1.0 / std::hypot(x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]);
-      weight[p] += w;
-      for (int n = 0; n < components; n++)
-        sum[static_cast<size_t>(p) * components + n] +=
-            w * values[static_cast<size_t>(vtk->origin_cell[c]) * components + n];
+  if (!vtk->to_points) {
+    auto *grid = vtk->grid.Get();
+    Lists corners;
+    std::vector<Point> centres;
+    vtkNew<vtkIdList> of;
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); c++) {
+      grid->GetCellPoints(c, of);
+      Point centre{};
+      for (vtkIdType k = 0; k < of->GetNumberOfIds(); k++) {
+        corners.items.push_back(static_cast<int>(of->GetId(k)));
+        for (int n = 0; n < 3; n++)
+          centre[n] += cells.points[of->GetId(k)][n] / of->GetNumberOfIds();
+      }
+      corners.close();
+      centres.push_back(centre);
     }
+    vtk->to_points = std::make_unique<CellToPoint>(cells.points, corners, centres);
   }
-  for (size_t p = 0; p < weight.size(); p++)
-    for (int n = 0; n < components && weight[p] > 0.0; n++) sum[p * components + n] /= weight[p];
-  return sum;
+  return vtk->to_points->apply(values, components);
 }
 
 // Points of patches get the mean of the faces around them; walls come last, and rest where the case

@@ -200,6 +200,36 @@ TEST(Program, wedges_and_lengths_to_scale)
   EXPECT_EQ(expect_linear(folder / "wedges.vtkhdf", 0, 1e-3), 1331);
 }
 
+TEST(Program, linear_fields_of_cells_are_exact)
+{
+  // the value of a cell is that at the mean of its corners
+  const Folder folder;
+  auto grid = block(6, 0.0);
+  vtkNew<vtkDoubleArray> u, p;
+  u->SetName("U");
+  u->SetNumberOfComponents(3);
+  p->SetName("p");
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); c++) {
+    auto *cell = grid->GetCell(c);
+    double centre[3] = {};
+    for (int k = 0; k < 8; k++)
+      for (int n = 0; n < 3; n++) centre[n] += cell->GetPoints()->GetPoint(k)[n] / 8.0;
+    u->InsertNextTuple(velocity(centre).data());
+    p->InsertNextValue(pressure(centre));
+  }
+  grid->GetPointData()->Initialize();
+  grid->GetCellData()->AddArray(u);
+  grid->GetCellData()->AddArray(p);
+  vtkNew<vtkXMLStructuredGridWriter> writer;
+  writer->SetFileName((folder / "cells.vts").c_str());
+  writer->SetInputData(grid);
+  writer->Write();
+  const auto run =
+      flowgrid_with((folder / "cells.vts") + " " + (folder / "cells.vtkhdf") + " --spacing 0.05");
+  EXPECT_EQ(run.status, 0) << run.text;
+  EXPECT_EQ(expect_linear(folder / "cells.vtkhdf"), 21 * 21 * 21);
+}
+
 TEST(Program, poiseuille_flow_of_openfoam)
 {
   // data/poiseuille: icoFoam's result on 16 x 10 cells, 4 long and 1 wide, mean velocity 1
