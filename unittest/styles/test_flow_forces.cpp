@@ -362,3 +362,42 @@ TEST(FlowForces, examples_pass)
     std::filesystem::remove_all(folder);
   }
 }
+
+TEST(FlowForces, one_warning_counts_the_particles_beyond_a_law)
+{
+  // Re = |v - u| d/nu: 2 and 0.5 under stokes, 900 and 2 under schiller; lift: Re <= sqrt(Re_G)
+  auto warnings = [](const std::string &forces, double fast, double slow) {
+    const std::string file = scratch_file("log");
+    Simulation sim;
+    sim.run(sphere() +
+            "create_atoms 1 single 2 2 2\nset atom 2 diameter 1.0 density 1.0\n"
+            "fix air all flow/field shear x y 0.01 0 density 1 viscosity 1\n"
+            "set atom 1 vx " +
+            digits(fast + 0.05) + "\nset atom 2 vx " + digits(slow + 0.02) + "\nlog " + file +
+            "\nfix drag all flow/force air " + forces + "\ntimestep 1e-9\nrun 3\nlog none\n");
+    std::string text;
+    FILE *in = fopen(file.c_str(), "r");
+    char line[512];
+    while (in && fgets(line, sizeof(line), in))
+      if (std::string(line).find("WARNING: Fix flow/force") == 0) text += line;
+    if (in) fclose(in);
+    std::filesystem::remove(file);
+    return text;
+  };
+  const auto stokes = warnings("drag stokes", 2.0, 0.5);
+  EXPECT_NE(stokes.find("drag stokes is meant for Re <= 1, 1 particles have more"),
+            std::string::npos)
+      << stokes;
+  EXPECT_EQ(stokes.find("WARNING", 1), std::string::npos) << "once in a run";
+  const auto schiller = warnings("drag schiller", 900.0, 2.0);
+  EXPECT_NE(schiller.find("schiller is meant for Re <= 800, 1 particles"), std::string::npos)
+      << schiller;
+  EXPECT_EQ(warnings("drag stokes", 0.5, 0.2), "");
+  EXPECT_EQ(warnings("drag schiller", 700.0, 2.0), "");
+  const auto lift = warnings("drag stokes lift saffman", 0.5, 0.05);
+  EXPECT_NE(
+      lift.find("lift saffman is meant for Re <= 1, Re_G <= 1, Re <= sqrt(Re_G), 1 particles"),
+      std::string::npos)
+      << lift;
+  EXPECT_EQ(warnings("drag stokes lift saffman", 0.05, 0.03), "");
+}
