@@ -162,14 +162,19 @@ void FixNVESphereMTS::init()
 
 void FixNVESphereMTS::setup(int)
 {
+  run_totals = Totals();
+  warned_of_skin = false;
+  run_totals.late_before = late_contacts();
+}
+
+// In a run's first step, when the fixes that come after this one have been set up as well.
+void FixNVESphereMTS::find_slow_largest()
+{
   gather_loads();
   slow_largest = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     slow_largest =
         std::max(slow_largest, MathExtra::len3(slow_of(i, &values[6 * i], &values[6 * i + 3]).a));
-  run_totals = Totals();
-  warned_of_skin = false;
-  run_totals.late_before = late_contacts();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -206,6 +211,7 @@ void FixNVESphereMTS::post_neighbor()
 
 void FixNVESphereMTS::initial_integrate(int /*vflag*/)
 {
+  if (run_totals.particle_steps == 0) find_slow_largest();
   const auto extremes = find_extremes();
   demand_neighbours(extremes);
   look_ahead();

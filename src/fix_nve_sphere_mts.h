@@ -106,6 +106,7 @@ class FixNVESphereMTS : public Fix {
   bool warned_of_skin = false;
   double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 
+  void find_slow_largest();
   Extremes find_extremes() const;
   void demand_neighbours(const Extremes &);
   void look_ahead();

@@ -126,8 +126,8 @@ TEST(FlowForces, slip_lets_fine_particles_settle_faster)
 {
   // 1 um in air at 20 C, 1000 kg/m^3: 3.48e-5 m/s (Hinds, Aerosol Technology, table A11)
   Simulation sim;
-  sim.run("units si\natom_style sphere\natom_modify map array\nregion box block 0 1e-3 0 1e-3 0 "
-          "1e-3\ncreate_box 1 box\ncreate_atoms 1 single 5e-4 5e-4 5e-4\n"
+  sim.run("units si\natom_style sphere\natom_modify map array\nregion box block 0 2e-5 0 2e-5 0 "
+          "2e-5\ncreate_box 1 box\ncreate_atoms 1 single 1e-5 1e-5 1e-5\n"
           "set type 1 diameter 1e-6 density 1000\npair_style zero 1e-6 nocoeff\npair_coeff * *\n"
           "neighbor 1e-6 bin\nfix move all nve/sphere\n"
           "fix air all flow/field uniform 0 0 0 density 1.2 viscosity 1.81e-5\n"

@@ -64,6 +64,24 @@ TEST(RanksMtsFlow, free_particle_relaxes_beside_a_held_one)
   EXPECT_EQ(sim.value("f_nve[2]"), 0.5);
 }
 
+// The integrator is set up before the fluid's forces where it is defined before them.
+TEST(MtsFlow, order_of_integrator_and_fluid_does_not_matter)
+{
+  const double d_eq = material.wall().delta_eq();
+  const std::string air = fluid("shear x z 5 0", 0.5, "torque yes added_mass yes");
+  auto end = [&](const std::string &fixes) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 0.5 - d_eq}, {4.0, 4.0, 4.0}},
+          at_floor(jkr + "damping tsuji 0.1 sliding 0.5 rolling 0.02 0.5"));
+    sim.run(fixes + "run 20\nrun 20");
+    return state_of(sim);
+  };
+  const State after = end(air + mts(16)), before = end(mts(16) + air);
+  EXPECT_EQ(before.x, after.x);
+  EXPECT_EQ(before.v, after.v);
+  EXPECT_GT(after.v[3], 1.0) << "the fluid has carried the free sphere along";
+}
+
 // ---------------------------------------------------------------------------------------------
 // shear flow u = G z along the wall: below friction's limits the sphere rolls, above it slides too
 
