@@ -60,11 +60,24 @@ class CellGrid {
   void sum_ghosts();     // values of ghosts are added to those of their owners
   void fill_ghosts();    // ghosts get the values of their owners
 
-  // Weights of trilinear interpolation between centres of cells, in two dimensions bilinear: of
-  // cell base and the next along each axis. Beyond the centres at a border the outermost cells
-  // count. False if the point is beyond the cells of this rank.
-  bool trilinear(const double *x, int *base, double *weight) const;
-  int next(int c, int cell) const { return n[c] > 1 || periodic[c] ? cell + 1 : cell; }
+  // Trilinear interpolation between centres of cells, in two dimensions bilinear: act(values of a
+  // cell, its weight) for the cells around x. Beyond the centres at a border the outermost cells
+  // count. False, and nothing is done, if x is beyond the cells of this rank.
+  template <class Act> bool interpolate(const double *x, Act act)
+  {
+    int base[3];
+    double weight[8];
+    if (!trilinear(x, base, weight)) return false;
+    for (int k = 0; k < (flat ? 4 : 8); k++)
+      act(at(k & 1 ? next(0, base[0]) : base[0], k & 2 ? next(1, base[1]) : base[1],
+             k & 4 ? next(2, base[2]) : base[2]),
+          weight[k]);
+    return true;
+  }
+  template <class Act> bool interpolate(const double *x, Act act) const
+  {
+    return const_cast<CellGrid *>(this)->interpolate(x, act);
+  }
 
   // for the owner: what LAMMPS asks of a fix with per-grid data
   int dimension() const { return flat ? 2 : 3; }
@@ -89,6 +102,9 @@ class CellGrid {
   std::vector<double ***> cell_planes;
 
   void point_to_values();
+  // weights of cell base and the next along each axis
+  bool trilinear(const double *x, int *base, double *weight) const;
+  int next(int c, int cell) const { return n[c] > 1 || periodic[c] ? cell + 1 : cell; }
 };
 
 }    // namespace LAMMPS_NS

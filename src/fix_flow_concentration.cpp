@@ -3,10 +3,10 @@
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_flow_field.h"
-#include "fix_wall_levelset.h"
+#include "known_walls.h"
 #include "math_const.h"
 #include "modify.h"
+#include "particle_checks.h"
 #include "respa.h"
 #include "update.h"
 
@@ -24,10 +24,10 @@ static constexpr const char *command = "Fix flow/concentration";
 /* ---------------------------------------------------------------------- */
 
 FixFlowConcentration::FixFlowConcentration(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), grid(lmp, this, parse_cells(narg, arg), 1), open(lmp, this, grid.n, 1)
+    FixPerGrid(lmp, narg, arg), grid(lmp, this, parse_cells(narg, arg), 1),
+    open(lmp, this, grid.n, 1)
 {
-  if (!atom->radius_flag)
-    error->all(FLERR, 2, "{} needs atom style sphere, got {}", command, atom->get_style());
+  check_spheres(lmp, command, 2);
   if (domain->triclinic) error->all(FLERR, 2, "{} needs an orthogonal simulation box", command);
   pergrid_flag = 1;
   pergrid_freq = 1;
@@ -151,37 +151,24 @@ void FixFlowConcentration::reset_grid()
 
 void FixFlowConcentration::mark_fluid()
 {
-  int closed = 0;
+  KnownWalls walls;
+  walls.find(modify);
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *field = dynamic_cast<FixFlowField *>(fix)) walls.add(field);
+  int masked = 0;
   for (int z = open.first[2]; z <= open.last[2]; z++)
     for (int y = open.first[1]; y <= open.last[1]; y++)
       for (int x = open.first[0]; x <= open.last[0]; x++) {
         const int cell[3] = {x, y, z};
         double centre[3];
         for (int c = 0; c < 3; c++) centre[c] = open.origin[c] + (cell[c] + 0.5) * open.spacing[c];
-        const bool fluid = is_fluid(centre);
+        domain->remap(centre);
+        const bool fluid = walls.distance(centre) > 0.0;
         *open.at(x, y, z) = fluid;
-        closed |= !fluid;
+        masked |= !fluid;
       }
-  MPI_Allreduce(MPI_IN_PLACE, &closed, 1, MPI_INT, MPI_MAX, world);
-  walled = closed;
-}
-
-bool FixFlowConcentration::is_fluid(double *x) const
-{
-  domain->remap(x);
-  for (const auto &fix : modify->get_fix_list()) {
-    if (const auto *wall = dynamic_cast<FixWallLevelset *>(fix))
-      if (wall->distance(x) <= 0.0) return false;
-    const auto *field = dynamic_cast<FixFlowField *>(fix);
-    if (!field || !field->has_distance()) continue;
-    apf::PointBlock point;
-    apf::Lanes distance;
-    point.n = 1;
-    point.set(0, x);
-    field->distance(point, distance);
-    if (distance[0] <= 0.0) return false;
-  }
-  return true;
+  MPI_Allreduce(MPI_IN_PLACE, &masked, 1, MPI_INT, MPI_MAX, world);
+  walled = masked;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -297,17 +284,13 @@ void FixFlowConcentration::sample(const apf::PointBlock &points, apf::Lanes &con
 {
   for (int l = 0; l < points.n; l++) {
     const double x[3] = {points.x[0][l], points.x[1][l], points.x[2][l]};
-    int base[3];
-    double weight[8];
-    if (!grid.trilinear(x, base, weight))
+    double sum = 0.0;
+    if (!grid.interpolate(x, [&](const double *c, double weight) {
+          sum += weight * *c;
+        }))
       error->one(FLERR, Error::NOLASTLINE,
                  "{} {}: a particle at {:.8g} {:.8g} {:.8g} lies outside the box", command, id,
                  x[0], x[1], x[2]);
-    double sum = 0.0;
-    for (int k = 0; k < (domain->dimension == 2 ? 4 : 8); k++)
-      sum += weight[k] *
-          *grid.at(k & 1 ? grid.next(0, base[0]) : base[0], k & 2 ? grid.next(1, base[1]) : base[1],
-                   k & 4 ? grid.next(2, base[2]) : base[2]);
     concentration[l] = MAX(sum, 0.0);    // the error of a convolution has both signs
   }
 }
@@ -336,48 +319,4 @@ double FixFlowConcentration::memory_usage()
 {
   return grid.memory_usage() + open.memory_usage() + (direct ? direct->grid.memory_usage() : 0.0) +
       (convolution ? convolution->memory_usage() : 0.0);
-}
-
-/* ---------------------------------------------------------------------- */
-
-int FixFlowConcentration::get_grid_by_name(const std::string &name, int &dim)
-{
-  dim = grid.dimension();
-  return name == "grid" ? 0 : -1;
-}
-
-void *FixFlowConcentration::get_grid_by_index(int index)
-{
-  return index == 0 ? grid.lammps_grid() : nullptr;
-}
-
-int FixFlowConcentration::get_griddata_by_name(int igrid, const std::string &name, int &ncol)
-{
-  ncol = 0;
-  return igrid == 0 && name == "data" ? 0 : -1;
-}
-
-void *FixFlowConcentration::get_griddata_by_index(int index)
-{
-  return index == 0 ? grid.lammps_data() : nullptr;
-}
-
-void FixFlowConcentration::pack_forward_grid(int which, void *buf, int n, int *list)
-{
-  grid_of(which).pack(static_cast<double *>(buf), n, list);
-}
-
-void FixFlowConcentration::unpack_forward_grid(int which, void *buf, int n, int *list)
-{
-  grid_of(which).unpack_set(static_cast<double *>(buf), n, list);
-}
-
-void FixFlowConcentration::pack_reverse_grid(int which, void *buf, int n, int *list)
-{
-  grid_of(which).pack(static_cast<double *>(buf), n, list);
-}
-
-void FixFlowConcentration::unpack_reverse_grid(int which, void *buf, int n, int *list)
-{
-  grid_of(which).unpack_add(static_cast<double *>(buf), n, list);
 }

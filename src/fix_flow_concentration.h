@@ -9,10 +9,9 @@ FixStyle(flow/concentration,FixFlowConcentration);
 #ifndef LMP_FIX_FLOW_CONCENTRATION_H
 #define LMP_FIX_FLOW_CONCENTRATION_H
 
-#include "cell_grid.h"
 #include "cloud_convolution.h"
 #include "cloud_sum.h"
-#include "fix.h"
+#include "fix_per_grid.h"
 
 #include "flow/fluid_block.h"
 
@@ -22,7 +21,7 @@ FixStyle(flow/concentration,FixFlowConcentration);
 
 namespace LAMMPS_NS {
 
-class FixFlowConcentration : public Fix {
+class FixFlowConcentration : public FixPerGrid {
  public:
   FixFlowConcentration(class LAMMPS *, int, char **);
   int setmask() override;
@@ -34,15 +33,6 @@ class FixFlowConcentration : public Fix {
   void reset_grid() override;
   double compute_vector(int) override;
   double memory_usage() override;
-
-  int get_grid_by_name(const std::string &, int &) override;
-  void *get_grid_by_index(int) override;
-  int get_griddata_by_name(int, const std::string &, int &) override;
-  void *get_griddata_by_index(int) override;
-  void pack_forward_grid(int, void *, int, int *) override;
-  void unpack_forward_grid(int, void *, int, int *) override;
-  void pack_reverse_grid(int, void *, int, int *) override;
-  void unpack_reverse_grid(int, void *, int, int *) override;
 
   // volume of particles per volume at points of this rank's part of the box, >= 0
   void sample(const apf::PointBlock &points, apf::Lanes &concentration) const;
@@ -64,8 +54,7 @@ class FixFlowConcentration : public Fix {
   void parse(int narg, char **arg);
   void set_up();
   void mark_fluid();
-  bool is_fluid(double *x) const;
-  CellGrid &grid_of(int which) { return which ? direct->grid : grid; }
+  CellGrid *grid_of(int which) override { return which ? &direct->grid : &grid; }
   void renew();
   double volume(int i) const;
   bool can_convolve() const;

@@ -72,7 +72,7 @@ void add(double *a, const apf::Vec3 &b)
 /* ---------------------------------------------------------------------- */
 
 FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), block(std::make_unique<Block>()),
+    FixPerGrid(lmp, narg, arg), block(std::make_unique<Block>()),
     fluid_forces(apf::fluid_forces()), total{}, total_all{}
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix flow/force", error);
@@ -417,46 +417,4 @@ double FixFlowForce::memory_usage()
 void FixFlowForce::reset_grid()
 {
   if (feedback) feedback->set_up();
-}
-
-int FixFlowForce::get_grid_by_name(const std::string &name, int &dim)
-{
-  dim = domain->dimension;
-  return feedback && name == "grid" ? 0 : -1;
-}
-
-void *FixFlowForce::get_grid_by_index(int index)
-{
-  return index == 0 ? feedback->grid.lammps_grid() : nullptr;
-}
-
-int FixFlowForce::get_griddata_by_name(int igrid, const std::string &name, int &ncol)
-{
-  ncol = 3;
-  return igrid == 0 && name == "data" ? 0 : -1;
-}
-
-void *FixFlowForce::get_griddata_by_index(int index)
-{
-  return index == 0 ? feedback->grid.lammps_data() : nullptr;
-}
-
-void FixFlowForce::pack_forward_grid(int, void *buf, int n, int *list)
-{
-  feedback->grid.pack(static_cast<double *>(buf), n, list);
-}
-
-void FixFlowForce::unpack_forward_grid(int, void *buf, int n, int *list)
-{
-  feedback->grid.unpack_set(static_cast<double *>(buf), n, list);
-}
-
-void FixFlowForce::pack_reverse_grid(int, void *buf, int n, int *list)
-{
-  feedback->grid.pack(static_cast<double *>(buf), n, list);
-}
-
-void FixFlowForce::unpack_reverse_grid(int, void *buf, int n, int *list)
-{
-  feedback->grid.unpack_add(static_cast<double *>(buf), n, list);
 }

@@ -9,8 +9,7 @@ FixStyle(flow/force,FixFlowForce);
 #ifndef LMP_FIX_FLOW_FORCE_H
 #define LMP_FIX_FLOW_FORCE_H
 
-#include "fix.h"
-
+#include "fix_per_grid.h"
 #include "flow_feedback.h"
 
 #include "flow/fluid_forces.h"
@@ -23,7 +22,7 @@ FixStyle(flow/force,FixFlowForce);
 
 namespace LAMMPS_NS {
 
-class FixFlowForce : public Fix {
+class FixFlowForce : public FixPerGrid {
  public:
   FixFlowForce(class LAMMPS *, int, char **);
   ~FixFlowForce() override;
@@ -34,15 +33,6 @@ class FixFlowForce : public Fix {
   void post_force_respa(int, int, int) override;
   void post_run() override;
   void reset_grid() override;
-
-  int get_grid_by_name(const std::string &, int &) override;
-  void *get_grid_by_index(int) override;
-  int get_griddata_by_name(int, const std::string &, int &) override;
-  void *get_griddata_by_index(int) override;
-  void pack_forward_grid(int, void *, int, int *) override;
-  void unpack_forward_grid(int, void *, int, int *) override;
-  void pack_reverse_grid(int, void *, int, int *) override;
-  void unpack_reverse_grid(int, void *, int, int *) override;
 
   double compute_vector(int) override;
   double memory_usage() override;
@@ -107,6 +97,7 @@ class FixFlowForce : public Fix {
   bool shares_atoms(int bit) const;
   void warn_of_ranges();
 
+  CellGrid *grid_of(int) override { return feedback ? &feedback->grid : nullptr; }
   void grow_output();
   double step() const;
   void for_blocks(const std::function<void()> &act);

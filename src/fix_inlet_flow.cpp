@@ -6,10 +6,9 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_contacts.h"
-#include "fix_flow_field.h"
-#include "fix_wall_levelset.h"
 #include "math_const.h"
 #include "modify.h"
+#include "particle_checks.h"
 #include "random_mars.h"
 #include "respa.h"
 #include "update.h"
@@ -28,11 +27,7 @@ static constexpr const char *command = "Fix inlet/flow";
 
 FixInletFlow::FixInletFlow(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag)
-    error->all(FLERR, 2,
-               "{} needs atom style sphere: radius, mass and omega per atom; atom style {} has "
-               "not all of them",
-               command, atom->get_style());
+  check_spheres(lmp, command, 2);
   if (!atom->tag_enable) error->all(FLERR, 2, "{} needs atoms with IDs", command);
   if (domain->triclinic) error->all(FLERR, 2, "{} needs an orthogonal simulation box", command);
   restart_global = 1;
@@ -71,12 +66,11 @@ void FixInletFlow::init()
   field->require(apf::Detail::VORTICITY);
   check_plane();
 
-  walls.clear();
+  walls.find(modify);
+  walls.add(field);
   keepers.clear();
-  for (const auto &other : modify->get_fix_list()) {
-    if (auto *wall = dynamic_cast<FixWallLevelset *>(other)) walls.push_back(wall);
+  for (const auto &other : modify->get_fix_list())
     if (dynamic_cast<FixContacts *>(other)) keepers.push_back(other);
-  }
 }
 
 /* ----------------------------------------------------------------------
@@ -413,21 +407,7 @@ bool FixInletFlow::fits(const double *entry, const Particle &particle) const
     if (domain->boundary[c][0] == 1 && particle.x[c] < domain->boxlo[c]) return false;
     if (domain->boundary[c][1] == 1 && particle.x[c] >= domain->boxhi[c]) return false;
   }
-  return clearance(particle.x) >= particle.radius + gap;
-}
-
-// distance from the nearest wall
-double FixInletFlow::clearance(const double *x) const
-{
-  double nearest = std::numeric_limits<double>::max();
-  for (const auto *wall : walls) nearest = std::min(nearest, wall->distance(x));
-  if (!field->has_distance()) return nearest;
-  apf::PointBlock point;
-  apf::Lanes of_flow;
-  point.n = 1;
-  point.set(0, x);
-  field->distance(point, of_flow);
-  return std::min(nearest, of_flow[0]);
+  return walls.distance(particle.x) >= particle.radius + gap;
 }
 
 /* ----------------------------------------------------------------------

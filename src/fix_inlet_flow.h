@@ -10,6 +10,7 @@ FixStyle(inlet/flow,FixInletFlow);
 #define LMP_FIX_INLET_FLOW_H
 
 #include "fix.h"
+#include "known_walls.h"
 
 #include "flow/diameter_law.h"
 #include "flow/inlet_flux.h"
@@ -75,7 +76,7 @@ class FixInletFlow : public Fix {
   State state;
   std::unique_ptr<class RanMars> random;
   class FixFlowField *field = nullptr;
-  std::vector<class FixWallLevelset *> walls;
+  KnownWalls walls;
   std::vector<Fix *> keepers;    // of contacts
   apf::InletFlux inflow;
   bool refuses = false;      // the last insertion ended at a particle without a place
@@ -107,7 +108,6 @@ class FixInletFlow : public Fix {
   void insert();
   apf::SphereGrid near_plane();
   bool place(Particle &, const apf::SphereGrid &);
-  double clearance(const double *x) const;
   bool fits(const double *entry, const Particle &) const;
   apf::Vec3 fluid_at(const double *x, apf::Vec3 *spin) const;
   bool is_mine(const double *x) const;

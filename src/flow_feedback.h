@@ -20,7 +20,7 @@ class FlowFeedback {
   void begin() { grid.clear(); }
   // force: of the fluid on a particle at x; false if that is out of this rank's reach
   bool add(const double *x, const apf::Vec3 &force);
-  void end();
+  void end() { grid.sum_ghosts(); }
 
   // sum over the grid of this rank's cells: force on the fluid
   apf::Vec3 sum();

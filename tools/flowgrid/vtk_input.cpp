@@ -33,6 +33,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -44,6 +45,7 @@ namespace flowgrid {
 struct VtkInput::Vtk {
   vtkSmartPointer<vtkAlgorithm> reader;
   vtkSmartPointer<vtkUnstructuredGrid> grid;    // all blocks in one, coincident points merged
+  int step = 0;                                 // that it is of
   std::unique_ptr<CellToPoint> to_points;       // where a field is of cells
   bool foam = false;
   std::string case_folder;
@@ -56,6 +58,7 @@ struct VtkInput::Vtk {
     bool wall = false;
   };
   std::vector<Patch> patches;
+  std::map<std::string, std::string> boundaries;    // boundary_of()
 };
 
 namespace {
@@ -186,6 +189,8 @@ VtkInput::~VtkInput() = default;
 // All data sets of a step, in one grid.
 void VtkInput::read(int step)
 {
+  if (vtk->grid && step == vtk->step) return;
+  vtk->step = step;
   if (steps.empty())
     vtk->reader->Update();
   else
@@ -380,21 +385,26 @@ std::vector<double> VtkInput::from_cells(const std::vector<double> &values, int 
   return vtk->to_points->apply(values, components);
 }
 
+// The case's words on the borders of a field, from its last time: they do not change in time.
+const std::string &VtkInput::boundary_of(const std::string &name) const
+{
+  const auto [place, is_new] = vtk->boundaries.try_emplace(name);
+  for (size_t k = steps.size(); is_new && k > 0 && place->second.empty(); k--) {
+    std::ostringstream time;
+    time << steps[k - 1];
+    const std::string text = contents(vtk->case_folder + "/" + time.str() + "/" + name);
+    const size_t at = text.rfind("boundaryField");
+    if (at != std::string::npos) place->second = text.substr(at);
+  }
+  return place->second;
+}
+
 // Points of patches get the mean of the faces around them; walls come last, and rest where the case
 // says noSlip or leaves the velocity of a fixed one at 0.
 void VtkInput::set_on_patches(Field &field) const
 {
   const int n = field.components;
-  const std::string boundary = [&] {
-    for (int k = static_cast<int>(steps.size()) - 1; k >= 0; k--) {
-      std::ostringstream name;
-      name << steps[k];
-      const std::string text = contents(vtk->case_folder + "/" + name.str() + "/" + field.name);
-      const size_t at = text.rfind("boundaryField");
-      if (at != std::string::npos) return text.substr(at);
-    }
-    return std::string();
-  }();
+  const std::string &boundary = boundary_of(field.name);
   for (const bool of_walls : {false, true}) {
     std::vector<double> sum(field.values.size(), 0.0);
     std::vector<int> faces(cells.points.size(), 0);
@@ -425,13 +435,13 @@ void VtkInput::set_on_patches(Field &field) const
 
 Field VtkInput::velocity(int step, const std::string &name)
 {
-  if (!steps.empty()) read(step);
+  read(step);
   return field(name, 3, "velocity");
 }
 
 Field VtkInput::pressure(int step, const std::string &name)
 {
-  if (!steps.empty()) read(step);
+  read(step);
   return field(name, 1, "pressure");
 }
 

@@ -48,6 +48,7 @@ class VtkInput {
   void make_mesh();
   Field field(const std::string &name, int components, const char *what);
   std::vector<double> from_cells(const std::vector<double> &values, int components) const;
+  const std::string &boundary_of(const std::string &name) const;
   void set_on_patches(Field &field) const;
 };
 

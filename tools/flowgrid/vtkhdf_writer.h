@@ -9,6 +9,9 @@
 
 #include <hdf5.h>
 
+#include <string>
+#include <vector>
+
 namespace flowgrid {
 
 class VtkhdfWriter {
