@@ -1,0 +1,196 @@
+// Distances from a grid against the shapes they were taken from.
+
+#include "wall/grid_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+namespace {
+
+using Shape = std::function<double(const double *)>;
+
+struct Field {
+  apf::Lattice lattice;
+  std::vector<double> coefficients;
+  apf::GridDistance grid;
+
+  Field(int dims, int nodes, double length, const Shape &shape, bool periodic = false)
+  {
+    lattice.dims = dims;
+    for (int k = 0; k < 3; k++) {
+      lattice.n[k] = k < dims ? nodes : 1;
+      lattice.periodic[k] = periodic && k == 0;
+      lattice.origin[k] = -0.5 * length;
+      lattice.spacing[k] = length / (nodes - (lattice.periodic[k] ? 0 : 1));
+    }
+    std::vector<double> values;
+    apf::for_each_node(lattice, [&](int i, int j, int k, std::size_t) {
+      const int index[3] = {i, j, k};
+      double x[3] = {};
+      for (int c = 0; c < dims; c++) x[c] = lattice.origin[c] + index[c] * lattice.spacing[c];
+      values.push_back(shape(x));
+    });
+    coefficients.resize(apf::GridDistance::size(lattice));
+    apf::GridDistance::write_coefficients(lattice, values, coefficients.data());
+    grid = apf::GridDistance(lattice, coefficients.data());
+  }
+};
+
+double size(const double *x, int dims)
+{
+  double sum = 0.0;
+  for (int c = 0; c < dims; c++) sum += x[c] * x[c];
+  return std::sqrt(sum);
+}
+
+// largest error of the distance around a circle or sphere of radius 1, at the distance 0.5
+double error_around(int dims, int nodes)
+{
+  const Field field(dims, nodes, 4.0, [dims](const double *x) {
+    return size(x, dims) - 1.0;
+  });
+  std::mt19937 random(7);
+  std::normal_distribution<double> gauss;
+  double worst = 0.0;
+  for (int n = 0; n < 2000; n++) {
+    double x[3] = {};
+    for (int c = 0; c < dims; c++) x[c] = gauss(random);
+    const double scale = 1.5 / size(x, dims);
+    for (double &component : x) component *= scale;
+    worst = std::max(worst, std::fabs(field.grid.distance(x) - 0.5));
+  }
+  return worst;
+}
+
+}    // namespace
+
+TEST(GridDistance, planes_at_any_angle_are_exact)
+{
+  std::mt19937 random(1);
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> in_box(-1.0, 1.0);
+  for (int dims : {2, 3})
+    for (int n = 0; n < 20; n++) {
+      double normal[3] = {};
+      for (int c = 0; c < dims; c++) normal[c] = gauss(random);
+      const double s = size(normal, dims);
+      for (double &component : normal) component /= s;
+      const auto plane = [&](const double *x) {
+        return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] - 0.1;
+      };
+      const Field field(dims, 12, 2.0, plane);
+      for (int k = 0; k < 200; k++) {
+        double x[3] = {}, slope[3], kappa[2];
+        for (int c = 0; c < dims; c++) x[c] = in_box(random);
+        EXPECT_NEAR(field.grid.distance(x), plane(x), 2e-15);
+        EXPECT_NEAR(field.grid.distance(x, slope), plane(x), 2e-15);
+        for (int c = 0; c < 3; c++) EXPECT_NEAR(slope[c], normal[c], 4e-14);
+        field.grid.curvatures(x, kappa);
+        EXPECT_NEAR(kappa[0], 0.0, 2e-12);
+        EXPECT_LT(field.grid.at_least(x), plane(x));
+        EXPECT_GT(field.grid.at_least(x), plane(x) - 3.0 * field.lattice.spacing[0]);
+      }
+    }
+}
+
+// 35/1152 h^4 times the sum of the fourth derivatives along the axes: 3/rho^3 to 12/rho^3 of size
+// around a circle of radius rho
+TEST(GridDistance, curved_walls_are_of_fourth_order)
+{
+  for (int dims : {2, 3}) {
+    const double coarse = error_around(dims, 41), fine = error_around(dims, 81);
+    const double order = std::log2(coarse / fine);
+    EXPECT_GT(order, 3.8) << dims;
+    EXPECT_LT(order, 4.2) << dims;
+    const double scale = apf::GridDistance::error_constant * std::pow(0.05, 4) / std::pow(1.5, 3);
+    EXPECT_LT(fine, 12.0 * scale) << dims;
+    EXPECT_GT(fine, 1.0 * scale) << dims;
+  }
+}
+
+TEST(GridDistance, slope_is_the_derivative_and_has_size_one)
+{
+  const Field field(3, 41, 4.0, [](const double *x) {
+    return size(x, 3) - 1.0;
+  });
+  const double x[3] = {0.9, -0.7, 0.83}, h = 1e-5;
+  double slope[3];
+  field.grid.distance(x, slope);
+  for (int c = 0; c < 3; c++) {
+    double up[3] = {x[0], x[1], x[2]}, down[3] = {x[0], x[1], x[2]};
+    up[c] += h;
+    down[c] -= h;
+    EXPECT_NEAR(slope[c], (field.grid.distance(up) - field.grid.distance(down)) / (2.0 * h), 1e-9);
+    EXPECT_NEAR(slope[c], x[c] / size(x, 3), 2e-4);
+  }
+  EXPECT_NEAR(size(slope, 3), 1.0, 2e-4);
+}
+
+TEST(GridDistance, curvatures_of_sphere_cylinder_and_circle)
+{
+  const double x[3] = {0.9, -0.7, 0.83};
+  double kappa[2];
+  const Field sphere(3, 81, 4.0, [](const double *x) {
+    return 1.9 - size(x, 3);
+  });
+  sphere.grid.curvatures(x, kappa);
+  EXPECT_NEAR(kappa[0], -1.0 / size(x, 3), 2e-3);
+  EXPECT_NEAR(kappa[1], -1.0 / size(x, 3), 2e-3);
+  const Field cylinder(3, 81, 4.0, [](const double *x) {
+    return size(x, 2) - 0.5;
+  });
+  cylinder.grid.curvatures(x, kappa);
+  EXPECT_NEAR(kappa[0], 1.0 / size(x, 2), 2e-3);
+  EXPECT_NEAR(kappa[1], 0.0, 1e-3);
+  const Field circle(2, 81, 4.0, [](const double *x) {
+    return size(x, 2) - 0.5;
+  });
+  circle.grid.curvatures(x, kappa);
+  EXPECT_NEAR(kappa[0], 1.0 / size(x, 2), 2e-3);
+  EXPECT_EQ(kappa[1], 0.0);
+}
+
+// from one cell to the next nothing jumps up to the curvature
+TEST(GridDistance, curvature_is_continuous_across_cells)
+{
+  const Field field(2, 21, 4.0, [](const double *x) {
+    return size(x, 2) - 1.0;
+  });
+  const double h = field.lattice.spacing[0], face = field.lattice.origin[0] + 15.0 * h;
+  for (double y : {0.31, 0.77, 1.2}) {
+    const double left[3] = {face - 1e-9, y, 0.0}, right[3] = {face + 1e-9, y, 0.0};
+    double a[2], b[2];
+    field.grid.curvatures(left, a);
+    field.grid.curvatures(right, b);
+    EXPECT_NEAR(a[0], b[0], 1e-7);
+    EXPECT_GT(a[0], 0.1);
+  }
+}
+
+TEST(GridDistance, periodic_grids_repeat)
+{
+  const double length = 2.0, pi = std::acos(-1.0);
+  const auto wave = [&](const double *x) {
+    return x[1] - 0.1 * std::cos(pi * x[0]);
+  };
+  const Field field(2, 40, length, wave, true);
+  const double bound =
+      1.001 * apf::GridDistance::error_constant * 0.1 * std::pow(pi * field.lattice.spacing[0], 4);
+  for (double x0 : {-1.0, -0.987, 0.3, 0.98}) {
+    const double x[3] = {x0, 0.2, 0.0}, image[3] = {x0 + 3.0 * length, 0.2, 0.0};
+    EXPECT_NEAR(field.grid.distance(x), wave(x), bound);
+    EXPECT_NEAR(field.grid.distance(image), field.grid.distance(x), 1e-13);
+  }
+}
+
+TEST(GridDistance, outside_of_the_grid_its_border_counts)
+{
+  const Field field(2, 11, 2.0, [](const double *x) {
+    return x[0] + 1.5;
+  });
+  const double inside[3] = {1.0, 0.0, 0.0}, outside[3] = {1.7, 0.0, 0.0};
+  EXPECT_NEAR(field.grid.distance(outside), 2.5, 1e-14);
+  EXPECT_NEAR(field.grid.distance(inside), 2.5, 1e-14);
+}
