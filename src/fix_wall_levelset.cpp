@@ -11,6 +11,7 @@
 #include "modify.h"
 #include "particle_checks.h"
 #include "respa.h"
+#include "type_sizes.h"
 #include "update.h"
 
 #include <cmath>
@@ -24,7 +25,7 @@ static constexpr const char *command = "Fix wall/levelset";
 /* ---------------------------------------------------------------------- */
 
 FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
-    FixContacts(lmp, narg, arg), kernel(nullptr), rows(domain->dimension == 2)
+    FixContacts(lmp, narg, arg), motion(lmp), kernel(nullptr), rows(domain->dimension == 2)
 {
   check_spheres(lmp, command, 2);
   scalar_flag = 1;
@@ -40,15 +41,26 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   dynamic_group_allow = 1;
 
   int iarg = 3;
-  surfaces = parse_surfaces(lmp, command, narg, arg, iarg);
+  surfaces = parse_surfaces(lmp, command, narg, arg, iarg, grid);
   coefficient = parse_contact(lmp, command, narg, arg, iarg, 0);
-  if (iarg < narg) {
-    if (strcmp(arg[iarg], "zone") == 0)
+  while (iarg < narg) {
+    if (strcmp(arg[iarg], "move") == 0) {
+      motion.parse(command, narg, arg, iarg);
+    } else if (strcmp(arg[iarg], "resolution") == 0) {
+      if (narg < iarg + 2) utils::missing_cmd_args(FLERR, "fix wall/levelset resolution", error);
+      resolution = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+      if (!(resolution > 0.0))
+        error->all(FLERR, iarg + 1, "{} resolution must be > 0, got {}", command, arg[iarg + 1]);
+      if (!grid) error->all(FLERR, iarg, "{} resolution is for walls from a file", command);
+      iarg += 2;
+    } else if (strcmp(arg[iarg], "zone") == 0) {
       error->all(FLERR, iarg, "{} keyword zone is not available in this version", command);
-    error->all(FLERR, iarg,
-               "{} keyword {} is unknown; known are damping, sliding, twisting, rolling, "
-               "break, scale_stiffness",
-               command, arg[iarg]);
+    } else {
+      error->all(FLERR, iarg,
+                 "{} keyword {} is unknown; known are damping, sliding, twisting, rolling, "
+                 "break, scale_stiffness, move, resolution",
+                 command, arg[iarg]);
+    }
   }
   choice.planar = domain->dimension == 2;
   choice.include(coefficient.model);
@@ -69,6 +81,7 @@ void FixWallLevelset::init()
 {
   FixContacts::init();
   check_units(lmp, command);
+  motion.init();
   rigid = nullptr;
   for (const auto &fix : modify->get_fix_list())
     if (fix->rigid_flag) rigid = fix;
@@ -104,12 +117,39 @@ void FixWallLevelset::init()
                  "largest particle, {}, got {}",
                  command, id, smallest[2], surface.radius);
   const double r = 1.0 / smallest[0], m = 1.0 / smallest[1];
-  check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, r, r);
-  if (step_is_given())
-    check_timestep(
-        lmp, fmt::format("Fix wall/levelset {}", id),
-        apf::stiffest_mode(coefficient.model, apf::ContactBodies::wall(r, m, 0.4 * m * r * r)),
-        step_of_level());
+  if (grid) check_grid(r, smallest[2]);
+  for (const auto &surface : surfaces) {
+    const double R = surface.contact_radius(r);
+    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, R, r);
+    if (step_is_given()) {
+      auto bodies = apf::ContactBodies::wall(r, m, 0.4 * m * r * r);
+      bodies.R = R;
+      check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
+                     apf::stiffest_mode(coefficient.model, bodies), step_of_level());
+    }
+  }
+}
+
+// The numbers of a grid must be good enough for the particles that are there or will be inserted.
+void FixWallLevelset::check_grid(double smallest, double largest)
+{
+  grid->check_box(Error::NOLASTLINE);
+  if (igroup == 0) {
+    const auto sizes = TypeSizes::find(lmp, command);
+    for (int type = 1; type <= atom->ntypes; type++) {
+      if (sizes.radius_max[type] == 0.0) continue;
+      smallest = MIN(smallest, sizes.radius_min[type]);
+      largest = MAX(largest, sizes.radius_max[type]);
+    }
+  }
+  const auto normal = coefficient.model.normal(smallest);
+  constexpr double without_adhesion = 1.0e-3;    // what delta_C of micron-sized dust is to R
+  const double allowed = resolution *
+      (coefficient.model.adhesive() ? normal.pulloff_overlap() : without_adhesion * smallest);
+  const double now[3] = {smallest, largest, allowed};
+  if (std::equal(now, now + 3, checked_for)) return;
+  std::copy(now, now + 3, checked_for);
+  grid->check(surfaces, smallest, largest, allowed);
 }
 
 /* ----------------------------------------------------------------------
@@ -127,6 +167,7 @@ int FixWallLevelset::level() const
 
 void FixWallLevelset::setup(int vflag)
 {
+  motion.take_speeds();
   if (auto *respa = dynamic_cast<Respa *>(update->integrate)) {
     respa->copy_flevel_f(level());
     post_force(vflag);
@@ -159,15 +200,37 @@ void FixWallLevelset::post_force(int vflag)
   if (rebuild) find_again();
   const auto times = lender ? lender->times() : take_velocities();
   if (lender) recall_due(times);
+  motion.pose.advance(times.advance);
   contacts_change();
   const int before = contacts.size();
   detect();
+  follow_curvature();
   share_masses();
   const bool goes_on = !due.empty();
   const int ended = add_forces(times, before);
   tally(vflag);
   if (goes_on) add_due();
   if (ended) remove_ended(false);
+  motion.take_speeds();
+}
+
+apf::Foot FixWallLevelset::foot_of(int surface, const double *x) const
+{
+  if (!motion.pose.moves) return surfaces[surface].foot(x);
+  double y[3], at[3];
+  motion.pose.to_frame(x, y);
+  apf::Foot foot = surfaces[surface].foot(y);
+  motion.pose.to_space(foot.at, at);
+  std::copy(at, at + 3, foot.at);
+  return foot;
+}
+
+bool FixWallLevelset::farther(int surface, const double *x, double than) const
+{
+  if (!motion.pose.moves) return surfaces[surface].farther(x, than);
+  double y[3];
+  motion.pose.to_frame(x, y);
+  return surfaces[surface].farther(y, than);
 }
 
 // The particles' rows: position and velocity of the last forces, and the loads of all contacts.
@@ -182,28 +245,31 @@ void FixWallLevelset::detect()
 {
   for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
     for (int i = 0; i < atom->nlocal; i++)
-      if (atom->mask[i] & groupbit) touch(i, s, surfaces[s].distance(atom->x[i]));
+      if (atom->mask[i] & groupbit && !farther(s, atom->x[i], atom->radius[i])) touch(i, s);
 }
 
 // closes the contact if there is one and it is new
-void FixWallLevelset::touch(int i, int surface, double distance)
+void FixWallLevelset::touch(int i, int surface)
 {
-  if (distance > atom->radius[i] || (touched[i] >> surface & 1)) return;
-  if (distance <= 0.0)
+  if (touched[i] >> surface & 1) return;
+  double x[3];
+  particles().position(i, x);
+  const auto foot = foot_of(surface, x);
+  if (foot.distance > atom->radius[i]) return;
+  if (foot.distance <= 0.0)
     error->one(FLERR, Error::NOLASTLINE,
                "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
                "inside, or use a smaller timestep",
-               command, id, atom->tag[i], -distance);
+               command, id, atom->tag[i], -foot.distance);
   close(i, surface, apf::ContactHistory());
-  note_touch(approach_of(i, surface, distance), atom->radius[i],
-             contacts.mode(contacts.size() - 1));
+  note_touch(approach_of(i, foot), atom->radius[i], contacts.mode(contacts.size() - 1));
   captured += 1.0;
 }
 
 void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &history)
 {
   const int k = contacts.size();
-  auto bodies = bodies_of(i, surface);
+  auto bodies = bodies_of(i, surface, atom->x[i]);
   contacts.add(2 * k, 2 * k + 1, i, kinds.find(surface, coefficient.model, bodies), history);
   bodies.crowding = crowding(i) + 1.0;
   contacts.set_crowding(k, bodies);
@@ -212,7 +278,7 @@ void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &histo
   count_anew();
 }
 
-apf::ContactBodies FixWallLevelset::bodies_of(int i, int surface) const
+apf::ContactBodies FixWallLevelset::bodies_of(int i, int surface, const double *x) const
 {
   double m = atom->rmass[i];
   const double r = atom->radius[i], I = 0.4 * m * r * r;
@@ -222,7 +288,11 @@ apf::ContactBodies FixWallLevelset::bodies_of(int i, int surface) const
     const auto *mass = static_cast<double *>(rigid->extract("masstotal", dim));
     if (body && mass && body[i] >= 0) m = mass[body[i]];
   }
-  return apf::ContactBodies::wall(r, m, I, surfaces[surface].turning(r));
+  double y[3];
+  motion.pose.to_frame(x, y);
+  auto bodies = apf::ContactBodies::wall(r, m, I, surfaces[surface].turning(y, r));
+  bodies.R = surfaces[surface].contact_radius(r);
+  return bodies;
 }
 
 // An atom's mass is shared by the dashpots of all its contacts.
@@ -233,7 +303,7 @@ void FixWallLevelset::share_masses()
   std::copy(now, now + 2, shared_at);
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.source[k];
-    auto bodies = bodies_of(i, surface_of[k]);
+    auto bodies = bodies_of(i, surface_of[k], atom->x[i]);
     bodies.crowding = crowding(i);
     contacts.set_crowding(k, bodies);
   }
@@ -245,6 +315,19 @@ double FixWallLevelset::crowding(int i) const
   double n = lender ? lender->pair_count(i) : 0.0;
   for (unsigned bits = touched[i]; bits; bits >>= 1) n += bits & 1;
   return n;
+}
+
+// Normals of walls whose curvature is not the same everywhere turn as fast as that where a particle
+// is now, to 1/16.
+void FixWallLevelset::follow_curvature()
+{
+  if (!grid) return;
+  for (int k = 0; k < contacts.size(); k++) {
+    const int i = contacts.source[k], s = surface_of[k];
+    if (surfaces[s].uniform) continue;
+    const auto kind = kinds.find(s, coefficient.model, bodies_of(i, s, atom->x[i]));
+    if (kind.constants.turning != contacts.constants_of(k).turning) contacts.change_kind(k, kind);
+  }
 }
 
 void FixWallLevelset::add_counts(double *counts)
@@ -282,17 +365,21 @@ void FixWallLevelset::gather()
   rows.resize(2 * n);
   for (int k = 0; k < n; k++) {
     const int i = contacts.source[k];
-    const auto &surface = surfaces[surface_of[k]];
-    double x[3], foot[3];
+    double x[3];
     from.position(i, x);
-    if (surface.distance(x) <= 0.0)
+    const auto foot = foot_of(surface_of[k], x);
+    if (foot.distance <= 0.0 || !foot.exists)
       error->one(
           FLERR, Error::NOLASTLINE,
           "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
           command, id, atom->tag[i]);
-    surface.foot(x, foot);
     rows.copy_row(from, i, 2 * k);
-    rows.place(2 * k + 1, foot);
+    rows.place(2 * k + 1, foot.at);
+    if (motion.pose.moves) {
+      const auto v = motion.pose.velocity_at(foot.at), &w = motion.pose.spin;
+      const double v_wall[3] = {v.x, v.y, v.z}, spin[3] = {w.x, w.y, w.z};
+      rows.set_motion(2 * k + 1, v_wall, spin);
+    }
   }
   rows.clear_loads(0, 2 * n);
 }
@@ -392,33 +479,48 @@ void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
 {
   near.clear();
   perhaps.clear();
-  const double farthest = ahead.farthest();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
+    const double *x = atom->x[i];
+    const double farthest = ahead.farthest() + ahead.reach * speed_near(x);
     for (int s = 0; s < static_cast<int>(surfaces.size()); s++) {
       const bool closed = touched[i] >> s & 1;
-      const double gap = surfaces[s].distance(atom->x[i]) - atom->radius[i];
-      if (!closed && gap > farthest) continue;
-      const auto approach = approach_of(i, s, gap + atom->radius[i]);
-      if (closed || gap <= ahead.distance(approach.closing_speed)) {
+      if (!closed && farther(s, x, farthest + atom->radius[i])) continue;
+      const auto approach = approach_of(i, foot_of(s, x));
+      if (!closed && approach.gap > farthest) continue;
+      if (closed || approach.gap <= ahead.distance(approach.closing_speed)) {
         ahead.meet(i, approach.relative_speed);
         if (!closed) near.push_back({i, s});
       } else {
-        perhaps.push_back({i, s, gap});
+        perhaps.push_back({i, s, approach.gap});
       }
     }
   }
 }
 
-apf::Approach FixWallLevelset::approach_of(int i, int surface, double distance)
+// How a particle moves against the wall's material; where there is no foot, as if straight at it.
+apf::Approach FixWallLevelset::approach_of(int i, const apf::Foot &foot)
 {
-  double v[3], omega[3], x[3], foot[3], n[3];
+  double v[3], omega[3], x[3], n[3];
   particles().motion(i, v, omega);
   particles().position(i, x);
-  surfaces[surface].foot(x, foot);
-  MathExtra::sub3(foot, x, n);
-  const double closing_speed = MathExtra::dot3(v, n) / MathExtra::len3(n);
-  return {distance - atom->radius[i], closing_speed, MathExtra::len3(v)};
+  if (motion.pose.moves) {
+    const auto v_wall = motion.pose.velocity_at(foot.at);
+    v[0] -= v_wall.x;
+    v[1] -= v_wall.y;
+    v[2] -= v_wall.z;
+  }
+  const double speed = MathExtra::len3(v);
+  if (!foot.exists) return {foot.distance - atom->radius[i], speed, speed};
+  MathExtra::sub3(foot.at, x, n);
+  return {foot.distance - atom->radius[i], MathExtra::dot3(v, n) / MathExtra::len3(n), speed};
+}
+
+double FixWallLevelset::speed_near(const double *x) const
+{
+  if (!motion.pose.moves) return 0.0;
+  const auto v = motion.pose.velocity_at(x);
+  return std::sqrt(norm2(v));
 }
 
 // A wall is struck, but strikes nothing in turn.
@@ -437,12 +539,9 @@ bool FixWallLevelset::find_near(apf::LookAhead &ahead)
 
 void FixWallLevelset::sub_step(const apf::ContactTimes &times)
 {
-  double x[3];
+  motion.pose.advance(times.advance);
   const int before = contacts.size();
-  for (const auto &[i, s] : near) {
-    particles().position(i, x);
-    touch(i, s, surfaces[s].distance(x));
-  }
+  for (const auto &[i, s] : near) touch(i, s);
   const int ended = add_forces(times, before);
   contacts_change();
   if (ended) remove_ended(true);
@@ -457,8 +556,10 @@ void FixWallLevelset::find_stiffest(apf::Stiffest &stiffest)
     });
   });
   for (const auto &[i, s] : near) {
-    const auto approach = approach_of(i, s, surfaces[s].distance(atom->x[i]));
-    stiffest.include_near(kinds.find(s, coefficient.model, bodies_of(i, s)).mode, approach);
+    const double *x = atom->x[i];
+    const auto bodies = bodies_of(i, s, x);
+    stiffest.include_near(kinds.find(s, coefficient.model, bodies).mode,
+                          approach_of(i, foot_of(s, x)));
   }
 }
 
@@ -494,8 +595,10 @@ void FixWallLevelset::find_again()
 
 double FixWallLevelset::distance(const double *x) const
 {
-  double nearest = surfaces[0].distance(x);
-  for (const auto &surface : surfaces) nearest = std::min(nearest, surface.distance(x));
+  double y[3];
+  motion.pose.to_frame(x, y);
+  double nearest = surfaces[0].distance(y);
+  for (const auto &surface : surfaces) nearest = std::min(nearest, surface.distance(y));
   return nearest;
 }
 
@@ -537,7 +640,12 @@ std::vector<double> FixWallLevelset::global_state() const
 {
   double mine[2] = {captured, detached}, all[2];
   MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
-  return {all[0], all[1]};
+  std::vector<double> state = {all[0], all[1], motion.pose.moves ? 1.0 : 0.0};
+  if (motion.pose.moves) {
+    state.resize(state.size() + apf::WallPose::state_size);
+    motion.pose.write(&state[3]);
+  }
+  return state;
 }
 
 void FixWallLevelset::set_global_state(const double *state)
@@ -546,6 +654,7 @@ void FixWallLevelset::set_global_state(const double *state)
     captured = state[0];
     detached = state[1];
   }
+  if (state[2] != 0.0 && motion.pose.moves) motion.pose.read(state + 3);
 }
 
 /* ----------------------------------------------------------------------
@@ -565,7 +674,8 @@ void *FixWallLevelset::extract(const char *name, int &dim)
 
 int FixWallLevelset::image(int *&objects, double **&values)
 {
-  drawn = std::make_unique<WallImage>(surfaces, domain);
+  drawn = std::make_unique<WallImage>(surfaces, grid.get(), domain);
+  if (motion.pose.moves) drawn->move(motion.pose);
   objects = drawn->objects.data();
   values = drawn->rows.data();
   return static_cast<int>(drawn->objects.size());
@@ -576,5 +686,6 @@ int FixWallLevelset::image(int *&objects, double **&values)
 double FixWallLevelset::memory_usage()
 {
   return FixContacts::memory_usage() + contacts.memory_usage() +
-      touched.capacity() * sizeof(unsigned) + rows.memory_usage();
+      touched.capacity() * sizeof(unsigned) + rows.memory_usage() +
+      (grid ? grid->memory_usage() : 0.0);
 }

@@ -11,6 +11,7 @@ FixStyle(wall/levelset,FixWallLevelset);
 
 #include "contact/contact_kernel.h"
 #include "contact_keywords.h"
+#include "wall_motion.h"
 #include "wall_surfaces.h"
 
 #include <memory>
@@ -52,6 +53,10 @@ class FixWallLevelset : public FixContacts {
 
  private:
   std::vector<apf::Surface> surfaces;
+  std::unique_ptr<WallGrid> grid;    // where surfaces come from a file
+  WallMotion motion;
+  double resolution = 0.05;      // error of a gridded distance in units of delta_C
+  double checked_for[3] = {};    // radii and error that the grid is good for
   ContactCoeff coefficient;
   apf::KernelChoice choice;
   apf::ContactKernel kernel;
@@ -86,10 +91,15 @@ class FixWallLevelset : public FixContacts {
   apf::Bodies &particles();
   void find_again();
   void detect();
-  void touch(int i, int surface, double distance);
-  apf::Approach approach_of(int i, int surface, double distance);
+  void touch(int i, int surface);
+  apf::Foot foot_of(int surface, const double *x) const;
+  bool farther(int surface, const double *x, double than) const;
+  void check_grid(double smallest, double largest);
+  void follow_curvature();
+  double speed_near(const double *x) const;    // of the wall, if it reached there
+  apf::Approach approach_of(int i, const apf::Foot &);
   void close(int i, int surface, const apf::ContactHistory &);
-  apf::ContactBodies bodies_of(int i, int surface) const;
+  apf::ContactBodies bodies_of(int i, int surface, const double *x) const;
   double crowding(int i) const;
   void share_masses();
   bigint shared_at[2] = {-1,

@@ -1,21 +1,17 @@
 #include "flow_grid.h"
 
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
-#include "fix.h"
-#include "modify.h"
 
 #include "flow/wall_extension.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 
 using namespace LAMMPS_NS;
 
-static constexpr double box_tolerance = 1.0e-9;       // of the box's length
+static constexpr double time_tolerance = 1.0e-9;      // of the length of the series
 static constexpr double repeat_tolerance = 1.0e-6;    // of the largest velocity
 
 /* ---------------------------------------------------------------------- */
@@ -44,25 +40,20 @@ int FlowGrid::Options::parse(LAMMPS *lmp, int iarg, int narg, char **arg)
 /* ---------------------------------------------------------------------- */
 
 FlowGrid::FlowGrid(LAMMPS *lmp, const std::string &path_in, const Options &options_in, int iarg) :
-    Pointers(lmp), path(path_in), options(options_in), frames(world), position(iarg)
+    GridFile(lmp, "Fix flow/field", path_in, iarg), options(options_in)
 {
-  if (domain->triclinic)
-    error->all(FLERR, iarg, "Fix flow/field file requires an orthogonal box, not a triclinic one");
   attempt([this] {
-    file = std::make_unique<apf::VtkhdfFile>(path);
-    image = file->grid();
     times = file->times();
     known_distance = file->has("distance");
   });
   int nsteps = times.size(), has = known_distance;
-  MPI_Bcast(&image, sizeof(image), MPI_BYTE, 0, world);
   MPI_Bcast(&has, 1, MPI_INT, 0, world);
   MPI_Bcast(&nsteps, 1, MPI_INT, 0, world);
   times.resize(nsteps);
   MPI_Bcast(times.data(), nsteps, MPI_DOUBLE, 0, world);
   known_distance = has;
 
-  make_lattice();
+  make_lattice(options.clamp, "; keyword outside clamp continues it");
   if (known_distance)
     attempt([this] {
       distance = nodes_of(file->read("distance", 1, 0, layers()), 1);
@@ -71,131 +62,6 @@ FlowGrid::FlowGrid(LAMMPS *lmp, const std::string &path_in, const Options &optio
   require(detail);
   load(0);
   position = Error::NOLASTLINE;
-}
-
-/* ----------------------------------------------------------------------
-   let the ranks that read do so; an error of one of them is one of all
-------------------------------------------------------------------------- */
-
-void FlowGrid::attempt(const std::function<void()> &work) const
-{
-  frames.synchronize();
-  std::string text;
-  if (frames.writer()) {
-    try {
-      work();
-    } catch (const std::bad_alloc &) {
-      text = "is too large for the memory of this machine";
-    } catch (const std::exception &problem) {
-      text = problem.what();
-    }
-  }
-  frames.synchronize();
-  int first = text.empty() ? comm->nprocs : comm->me;
-  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
-  if (first == comm->nprocs) return;
-  int length = text.size();
-  MPI_Bcast(&length, 1, MPI_INT, first, world);
-  text.resize(length);
-  MPI_Bcast(text.data(), length, MPI_CHAR, first, world);
-  error->all(FLERR, position, "Fix flow/field file {}: {}", path, text);
-}
-
-/* ----------------------------------------------------------------------
-   the file's grid, in the box
-------------------------------------------------------------------------- */
-
-void FlowGrid::make_lattice()
-{
-  lattice.dims = domain->dimension;
-  for (int k = 0; k < 3; k++) {
-    lattice.n[k] = image.n[k];
-    lattice.origin[k] = image.origin[k];
-    lattice.spacing[k] = image.spacing[k];
-  }
-  if (lattice.dims == 2) {
-    if (image.n[2] > 2)
-      error->all(FLERR, position,
-                 "Fix flow/field file {}: a 2d simulation takes 1 or 2 layers of nodes along z, "
-                 "got {}",
-                 path, image.n[2]);
-    lattice.n[2] = 1;
-  }
-  for (int k = 0; k < lattice.dims; k++) {
-    if (image.n[k] < 2)
-      error->all(FLERR, position,
-                 "Fix flow/field file {}: {}d simulations need 2 or more nodes along {}, got {}",
-                 path, lattice.dims, "xyz"[k], image.n[k]);
-    lattice.periodic[k] = periodic(k, position);
-    // the last node may repeat the first one
-    if (lattice.periodic[k])
-      lattice.n[k] = std::lround((domain->boxhi[k] - domain->boxlo[k]) / image.spacing[k]);
-  }
-}
-
-/* ----------------------------------------------------------------------
-   whether the grid is periodic along an axis: so is the box, and their lengths agree
-------------------------------------------------------------------------- */
-
-bool FlowGrid::periodic(int k, int iarg) const
-{
-  const double lo = domain->boxlo[k], hi = domain->boxhi[k], tolerance = box_tolerance * (hi - lo);
-  const double first = image.origin[k], last = first + (image.n[k] - 1) * image.spacing[k];
-  if (domain->periodicity[k]) {
-    if (std::fabs(last - first - (hi - lo)) <= tolerance) return true;
-    if (std::fabs(last - first + image.spacing[k] - (hi - lo)) <= tolerance) return true;
-  }
-  // shrink-wrapped boundaries follow the particles
-  const bool low = domain->boundary[k][0] > 1 || first <= lo + tolerance;
-  const bool high = domain->boundary[k][1] > 1 || last >= hi - tolerance;
-  if (!options.clamp && !(low && high))
-    error->all(FLERR, iarg,
-               "Fix flow/field file {}: the grid spans {} to {} along {} and does not cover the "
-               "box, {} to {}; keyword outside clamp continues it",
-               path, first, last, "xyz"[k], lo, hi);
-  return false;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FlowGrid::check_box(int iarg) const
-{
-  for (int k = 0; k < lattice.dims; k++) {
-    bool changes = false;
-    for (const auto &fix : modify->get_fix_list())
-      changes = changes || (fix->box_change & (Fix::BOX_CHANGE_X << k));
-    if (periodic(k, iarg) != lattice.periodic[k] || (lattice.periodic[k] && changes))
-      error->all(FLERR, iarg,
-                 "Fix flow/field file {}: the box must keep its length and boundaries along {}, "
-                 "where the flow's grid is as the box when the fix was defined",
-                 path, "xyz"[k]);
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-std::string FlowGrid::extent() const
-{
-  std::string text;
-  for (int k = 0; k < lattice.dims; k++)
-    text += fmt::format("{}{} = {:.8g} to {:.8g}", k ? ", " : "", "xyz"[k], image.origin[k],
-                        image.origin[k] + (image.n[k] - 1) * image.spacing[k]);
-  return text;
-}
-
-/* ----------------------------------------------------------------------
-   an array of the file at the different nodes of the lattice
-------------------------------------------------------------------------- */
-
-std::vector<double> FlowGrid::nodes_of(const std::vector<double> &values, int components) const
-{
-  std::vector<double> kept;
-  kept.reserve(lattice.nodes() * components);
-  for_each_node(lattice, [&](int i, int j, int k, std::size_t) {
-    const double *from = &values[components * (i + image.n[0] * (j + std::size_t(image.n[1]) * k))];
-    kept.insert(kept.end(), from, from + components);
-  });
-  return kept;
 }
 
 /* ----------------------------------------------------------------------
@@ -240,7 +106,7 @@ void FlowGrid::load(int frame)
     auto velocity = nodes_of(values, 3);
     if (known_distance && options.reconstruct)
       apf::WallExtension(lattice, distance, velocity).fill();
-    apf::write_records(lattice, detail, velocity, distance, frames.data() + slot * size);
+    apf::write_records(lattice, detail, velocity, distance, numbers.data() + slot * size);
   });
   frame_in[slot] = frame;
 }
@@ -252,14 +118,7 @@ void FlowGrid::require(apf::Detail wanted)
   if (size > 0 && wanted <= detail) return;
   detail = wanted;
   size = apf::frame_size(lattice, detail);
-  const std::size_t all = series() ? 2 * size : size;
-  int enough = frames.allocate(all);
-  MPI_Allreduce(MPI_IN_PLACE, &enough, 1, MPI_INT, MPI_MIN, world);
-  if (!enough)
-    error->all(FLERR, position,
-               "Fix flow/field file {}: {:.4g} Mbytes of memory, shared by the ranks of a node, "
-               "cannot be had",
-               path, all * sizeof(double) / 1048576.0);
+  allocate(series() ? 2 * size : size);
   frame_in[0] = frame_in[1] = -1;
 }
 
@@ -276,7 +135,7 @@ void FlowGrid::set_time(double time)
   if (options.loop) {
     now = first + std::fmod(time - first, length);
     if (now < first) now += length;
-  } else if (time < first - box_tolerance * length || time > last + box_tolerance * length)
+  } else if (time < first - time_tolerance * length || time > last + time_tolerance * length)
     error->all(FLERR, position,
                "Fix flow/field file {}: its series lasts from {:.8g} to {:.8g}, the simulation is "
                "at time {:.8g}; keyword loop yes repeats it",
@@ -296,9 +155,9 @@ apf::GridFlow FlowGrid::flow() const
 {
   apf::GridFlow result;
   result.view = apf::grid_view(lattice, detail);
-  result.view.frame[0] = frames.data() + (interval % 2) * size;
+  result.view.frame[0] = numbers.data() + (interval % 2) * size;
   if (series()) {
-    result.view.frame[1] = frames.data() + ((interval + 1) % 2) * size;
+    result.view.frame[1] = numbers.data() + ((interval + 1) % 2) * size;
     result.view.share = share;
     result.view.per_time = 1.0 / (times[interval + 1] - times[interval]);
   }
@@ -309,5 +168,5 @@ apf::GridFlow FlowGrid::flow() const
 
 double FlowGrid::memory_usage() const
 {
-  return frames.bytes() + distance.size() * sizeof(double);
+  return numbers.bytes() + distance.size() * sizeof(double);
 }

@@ -1,23 +1,18 @@
-// A gridded flow from a file: reads it once per node, checks it against the box, and keeps the
-// frames that the present time needs in memory that the ranks of a node share.
+// A gridded flow from a file: keeps the frames that the present time needs.
 
 #ifndef LMP_FLOW_GRID_H
 #define LMP_FLOW_GRID_H
 
-#include "node_memory.h"
-#include "pointers.h"
+#include "grid_file.h"
 
 #include "flow/grid_flow.h"
-#include "flow/vtkhdf_file.h"
 
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class FlowGrid : protected Pointers {
+class FlowGrid : public GridFile {
  public:
   struct Options {
     bool loop = false;          // the series begins again when it is over
@@ -34,25 +29,16 @@ class FlowGrid : protected Pointers {
   // All ranks call these.
   void
       require(apf::Detail);    // the records shall hold that much; they do when set_time was called
-  void set_time(double time);        // reads what is missing
-  void check_box(int iarg) const;    // that it is still the box that the grid was made for
+  void set_time(double time);    // reads what is missing
 
   bool series() const { return !times.empty(); }
   double file_time() const { return now; }    // in the series, when it loops
   bool has_distance() const { return known_distance; }
   apf::GridFlow flow() const;    // valid until require or set_time
-  std::string extent() const;    // for errors
   double memory_usage() const;
 
  private:
-  std::string path;
   Options options;
-  std::unique_ptr<apf::VtkhdfFile> file;    // of the rank that reads
-  NodeMemory frames;
-  int position;    // of the file's word while the command is parsed
-
-  apf::ImageGrid image{};
-  apf::Lattice lattice{};
   bool known_distance = false;
   std::vector<double> times;
   std::vector<double> distance;    // of the rank that reads
@@ -62,13 +48,7 @@ class FlowGrid : protected Pointers {
   int interval = 0;              // frames before and after now
   double now = 0.0, share = 0.0;
 
-  void attempt(const std::function<void()> &work) const;
-  void open();
-  bool periodic(int axis, int iarg) const;
-  void make_lattice();
-  std::vector<double> nodes_of(const std::vector<double> &values, int components) const;
   void check_repeated(const std::vector<double> &values) const;
-  int layers() const { return lattice.dims == 2 ? 1 : image.n[2]; }
   void load(int frame);
 };
 

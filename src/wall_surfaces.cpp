@@ -11,7 +11,8 @@
 using namespace LAMMPS_NS;
 
 std::vector<apf::Surface> LAMMPS_NS::parse_surfaces(LAMMPS *lmp, const char *command, int narg,
-                                                    char **arg, int &iarg)
+                                                    char **arg, int &iarg,
+                                                    std::unique_ptr<WallGrid> &grid)
 {
   std::vector<apf::Surface> surfaces;
   auto dimension = [&](const char *shape) {
@@ -66,24 +67,48 @@ std::vector<apf::Surface> LAMMPS_NS::parse_surfaces(LAMMPS *lmp, const char *com
                       side);
     surfaces.push_back(apf::Surface::cylinder(dim, c1, c2, radius, side == "inside" ? -1.0 : 1.0));
   } else if (shape == "file") {
-    lmp->error->all(FLERR, iarg - 1, "{} file is not available in this version", command);
+    if (narg < iarg + 1) utils::missing_cmd_args(FLERR, "fix wall/levelset file", lmp->error);
+    const int word = iarg++;
+    std::vector<std::string> arrays;
+    while (iarg < narg && strcmp(arg[iarg], "array") == 0) {
+      if (narg < iarg + 2) utils::missing_cmd_args(FLERR, "fix wall/levelset array", lmp->error);
+      arrays.push_back(arg[iarg + 1]);
+      iarg += 2;
+    }
+    grid = std::make_unique<WallGrid>(lmp, command, arg[word], arrays, largest_number_of_surfaces,
+                                      word);
+    surfaces = grid->surfaces();
   } else {
-    lmp->error->all(FLERR, iarg - 1, "{} shape must be plane or cylinder, got {}", command, shape);
+    lmp->error->all(FLERR, iarg - 1, "{} shape must be plane, cylinder or file, got {}", command,
+                    shape);
   }
   return surfaces;
 }
 
 /* ---------------------------------------------------------------------- */
 
-WallImage::WallImage(const std::vector<apf::Surface> &surfaces, const Domain *domain) :
+WallImage::WallImage(const std::vector<apf::Surface> &surfaces, const WallGrid *grid,
+                     const Domain *domain) :
     flat(domain->dimension == 2)
 {
   for (const auto &surface : surfaces)
     if (surface.shape == apf::Surface::Shape::plane)
       draw_plane(surface, domain);
-    else
+    else if (surface.shape == apf::Surface::Shape::cylinder)
       draw_cylinder(surface, domain);
+  if (grid)
+    for (const auto &piece : grid->facets())
+      add(flat ? Graphics::LINE : Graphics::TRI, piece[0], piece[1], piece[2]);
   for (auto &row : values) rows.push_back(row.data());
+}
+
+void WallImage::move(const apf::WallPose &pose)
+{
+  for (auto &row : values)
+    for (int corner = 0; corner < 3; corner++) {
+      const double y[3] = {row[1 + 3 * corner], row[2 + 3 * corner], row[3 + 3 * corner]};
+      pose.to_space(y, &row[1 + 3 * corner]);
+    }
 }
 
 void WallImage::draw_plane(const apf::Surface &surface, const Domain *domain)

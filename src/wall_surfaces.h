@@ -3,23 +3,32 @@
 #ifndef APF_WALL_SURFACES_H
 #define APF_WALL_SURFACES_H
 
+#include "wall_grid.h"
+
 #include "wall/surface.h"
+#include "wall/wall_pose.h"
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
 class Domain;
 class LAMMPS;
 
-// plane DIM LO HI | cylinder DIM C1 C2 R inside|outside; iarg is left behind the last word
+constexpr int largest_number_of_surfaces = 32;    // bits of a word
+
+// plane DIM LO HI | cylinder DIM C1 C2 R inside|outside | file F.vtkhdf [array NAME ...]; iarg is left
+// behind the last word. grid: what the file holds, else nothing.
 std::vector<apf::Surface> parse_surfaces(LAMMPS *lmp, const char *command, int narg, char **arg,
-                                         int &iarg);
+                                         int &iarg, std::unique_ptr<WallGrid> &grid);
 
 // Lines in the plane, triangles in space, kept for Fix::image().
 class WallImage {
  public:
-  WallImage(const std::vector<apf::Surface> &surfaces, const Domain *domain);
+  // grid: where the surfaces come from, if they do from a file
+  WallImage(const std::vector<apf::Surface> &surfaces, const WallGrid *grid, const Domain *domain);
+  void move(const apf::WallPose &pose);    // all points, from the wall's frame to space
 
   std::vector<int> objects;
   std::vector<double *> rows;

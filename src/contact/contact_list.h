@@ -284,6 +284,14 @@ class ContactList {
     set_history(k, h);
   }
 
+  void change_kind(int k, const ContactKind &kind_of)
+  {
+    ContactKind alone = kind_of;
+    alone.constants.crowd_mass = alone.constants.crowd_roll = 0.0;
+    kinds.release(kind[k]);
+    kind[k] = kinds.use(alone);
+  }
+
   // other contacts of the two bodies have come or gone
   void set_crowding(int k, const ContactBodies &bodies)
   {

@@ -32,6 +32,7 @@ class VtkhdfFile {
   // of the frames of a series, ascending; empty if the file is steady     [time]
   const std::vector<double> &times() const { return step_times; }
   bool has(const std::string &array) const;
+  std::vector<std::string> arrays() const;    // names of all point arrays
 
   // Reads a frame (0 if the file is steady) of an array of float or double with so many components
   // per node: the lowest layers along z, components fastest, then x, y, z. All values are finite.
@@ -53,7 +54,6 @@ class VtkhdfFile {
   void close();
   void read_grid();
   void read_steps();
-  std::vector<std::string> arrays() const;
   std::uint64_t frame_offset(const std::string &array, int frame) const;
   Shape shape(const std::string &array, const std::vector<std::uint64_t> &dims, int components,
               int frame) const;

@@ -1,57 +1,109 @@
-// Walls of simple shape: distance of a point, positive in the fluid, and its foot on the wall.
+// Surfaces of a wall: distance of a point, positive in the fluid, and its foot on the surface.
 
 #ifndef APF_SURFACE_H
 #define APF_SURFACE_H
 
+#include "grid_distance.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace apf {
 
+// A point seen from the surface. There is no foot where the distance has no slope: beyond the band
+// that a grid's numbers are good for, and midway between two surfaces in one.
+struct Foot {
+  double distance;    // > 0 in the fluid                                              [length]
+  double at[3];       // nearest point of the surface
+  bool exists;
+};
+
 struct Surface {
-  enum class Shape { plane, cylinder } shape;
+  enum class Shape { plane, cylinder, grid } shape;
   int dim;             // plane: axis of its normal; cylinder: its axis; 0, 1, 2
   double side;         // +1: fluid above the plane, outside the cylinder; -1: below, inside
   double origin[2];    // plane: coordinate along dim; cylinder: axis position in the other two
                        // dimensions, in the order x, y, z                                [length]
   double radius;       // of the cylinder                                                 [length]
+  GridDistance grid;
+  // principal curvatures where they are the same all over the surface, else 0; > 0 where the
+  // surface bends away from the fluid                                                  [1/length]
+  double curvature[2] = {0.0, 0.0};
+  bool uniform = true;    // whether they are the same
 
   static Surface plane(int dim, double coordinate, double side)
   {
-    return {Shape::plane, dim, side, {coordinate, 0.0}, 0.0};
+    return {Shape::plane, dim, side, {coordinate, 0.0}, 0.0, {}};
   }
   static Surface cylinder(int dim, double c1, double c2, double radius, double side)
   {
-    return {Shape::cylinder, dim, side, {c1, c2}, radius};
+    return {Shape::cylinder, dim, side, {c1, c2}, radius, {}, {side / radius, 0.0}};
+  }
+  static Surface gridded(const GridDistance &grid)
+  {
+    return {Shape::grid, 0, 1.0, {0.0, 0.0}, 0.0, grid, {0.0, 0.0}, false};
   }
 
   // signed distance of x, > 0 in the fluid [length]
   double distance(const double *x) const
   {
     if (shape == Shape::plane) return side * (x[dim] - origin[0]);
+    if (shape == Shape::grid) return grid.distance(x);
     return side * (axis_distance(x) - radius);
   }
 
-  // nearest point of the wall. On a cylinder's axis it is not unique: any is taken.
-  void foot(const double *x, double *at) const
+  // whether x is farther away; may say no where it is, but takes less time than the distance
+  bool farther(const double *x, double than) const
   {
-    for (int c = 0; c < 3; c++) at[c] = x[c];
-    if (shape == Shape::plane) {
-      at[dim] = origin[0];
-      return;
-    }
-    const int d1 = first(), d2 = second();
-    const double rho = axis_distance(x);
-    const double e1 = rho > 0.0 ? (x[d1] - origin[0]) / rho : 1.0;
-    const double e2 = rho > 0.0 ? (x[d2] - origin[1]) / rho : 0.0;
-    at[d1] = origin[0] + radius * e1;
-    at[d2] = origin[1] + radius * e2;
+    return shape == Shape::grid ? grid.at_least(x) > than : distance(x) > than;
   }
 
-  // how fast the normal of a particle of radius r turns as it moves along: r / distance from the
-  // axis, < 0 inside a cylinder, where the normal points outward [-]
-  double turning(double r) const
+  // On a cylinder's axis the foot is not unique: any is taken.
+  Foot foot(const double *x) const
   {
-    return shape == Shape::plane ? 0.0 : side * r / (radius + side * r);
+    Foot foot{0.0, {x[0], x[1], x[2]}, true};
+    if (shape == Shape::plane) {
+      foot.distance = distance(x);
+      foot.at[dim] = origin[0];
+    } else if (shape == Shape::cylinder) {
+      const int d1 = first(), d2 = second();
+      const double rho = axis_distance(x);
+      const double e1 = rho > 0.0 ? (x[d1] - origin[0]) / rho : 1.0;
+      const double e2 = rho > 0.0 ? (x[d2] - origin[1]) / rho : 0.0;
+      foot.distance = side * (rho - radius);
+      foot.at[d1] = origin[0] + radius * e1;
+      foot.at[d2] = origin[1] + radius * e2;
+    } else {
+      double slope[3];
+      foot.distance = grid.distance(x, slope);
+      const double size =
+          std::sqrt(slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2]);
+      foot.exists = size > least_slope;
+      if (!foot.exists) return foot;
+      const double back = foot.distance / size;
+      for (int c = 0; c < 3; c++) foot.at[c] -= back * slope[c];
+    }
+    return foot;
+  }
+
+  // How fast the normal of a particle of radius r at x turns as it moves along: r times the
+  // curvature of its path, < 0 inside a cylinder, where the normal points outward [-]
+  double turning(const double *x, double r) const
+  {
+    if (uniform) return r * curvature[0] / (1.0 + r * curvature[0]);
+    double kappa[2];
+    grid.curvatures(x, kappa);
+    // of an edge that is rolled over at the distance r: 1. Rounded, so that contacts at places that
+    // are nearly alike are of one kind.
+    return std::round(16.0 * std::clamp(r * kappa[0], -largest_turning, largest_turning)) / 16.0;
+  }
+
+  // Effective radius of the contact of a sphere of radius r: geometric mean of those along the two
+  // principal directions (K. L. Johnson, J. A. Greenwood, J. Phys. D 38, 1042 (2005),
+  // doi:10.1088/0022-3727/38/7/012) [length]
+  double contact_radius(double r) const
+  {
+    return r / std::sqrt((1.0 + r * curvature[0]) * (1.0 + r * curvature[1]));
   }
 
   // the two dimensions across the plane's normal or the cylinder's axis
@@ -59,6 +111,9 @@ struct Surface {
   int second() const { return dim == 2 ? 1 : 2; }
 
  private:
+  static constexpr double least_slope = 0.5;    // of a distance it is 1
+  static constexpr double largest_turning = 10.0;
+
   double axis_distance(const double *x) const
   {
     const double a = x[first()] - origin[0], b = x[second()] - origin[1];

@@ -262,8 +262,8 @@ TEST(WallErrors, shape)
       {"cylinder z 5 5 0 inside" + law, {"cylinder radius must be > 0, got 0"}},
       {"cylinder z 5 5 -1 inside" + law, {"cylinder radius must be > 0, got -1"}},
       {"cylinder z 5 5 3 within" + law, {"must be inside or outside, got within"}},
-      {"file wall.vtkhdf" + law, {"file is not available in this version"}},
-      {"sphere 5 5 5 3" + law, {"shape must be plane or cylinder, got sphere"}},
+      {"file wall.vtkhdf" + law, {"file wall.vtkhdf: cannot be opened"}},
+      {"sphere 5 5 5 3" + law, {"shape must be plane, cylinder or file, got sphere"}},
       {"plane y 0 10" + law + " zone inlet", {"keyword zone is not available in this version"}},
   };
   for (auto &row : table) row.input = "fix w all wall/levelset " + row.input;

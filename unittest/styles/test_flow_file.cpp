@@ -3,7 +3,7 @@
 
 #include "fix.h"
 #include "simulation.h"
-#include "vtkhdf_writer.h"
+#include "temporary_file.h"
 
 #include "gtest/gtest.h"
 
@@ -13,41 +13,6 @@
 #include <fstream>
 
 namespace {
-
-// a file in the temporary folder, the same on all ranks, removed at the end
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string &name)
-  {
-    int id = static_cast<int>(getpid());
-    MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    path =
-        (std::filesystem::temp_directory_path() / (name + std::to_string(id) + ".vtkhdf")).string();
-  }
-  ~TemporaryFile()
-  {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank() == 0) std::filesystem::remove(path);
-  }
-  // written by one rank
-  void write(VtkhdfWriter::Counts n, VtkhdfWriter::Triple origin, VtkhdfWriter::Triple spacing,
-             const std::function<void(VtkhdfWriter &)> &content) const
-  {
-    if (rank() == 0) {
-      VtkhdfWriter writer(path, n, origin, spacing);
-      content(writer);
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  static int rank()
-  {
-    int me;
-    MPI_Comm_rank(MPI_COMM_WORLD, &me);
-    return me;
-  }
-
-  std::string path;
-};
 
 const std::string spheres = R"(
 units lj

@@ -17,13 +17,13 @@ Scene at_wall(const std::string &wall, const std::string &boundary = "p p f")
   return scene;
 }
 
-// overlap at which the wall carries a load
-double overlap_under(double load)
+// overlap at which the wall carries a load, for an effective radius R
+double overlap_under(double load, double R = 0.5)
 {
   double low = 0.0, high = 0.2;
   for (int n = 0; n < 200; n++) {
     const double mid = 0.5 * (low + high);
-    (material.wall().force(mid) < load ? low : high) = mid;
+    (material.curve(R).force(mid) < load ? low : high) = mid;
   }
   return low;
 }
@@ -54,8 +54,11 @@ TEST(Wall, sphere_rests_where_the_wall_carries_its_weight)
   const double overlap = overlap_under(400.0 * mass);
   ASSERT_GT(overlap, 1.1 * material.wall().delta_eq());
   EXPECT_NEAR(0.5 - rest_height("plane z 0 NULL", "p p f", 0.49), overlap, 1e-7);
-  EXPECT_NEAR(1.5 - rest_height("cylinder x 4 4 3 inside", "p f f", 1.49), overlap, 1e-7);
-  EXPECT_NEAR(5.5 - rest_height("cylinder y 4 2 3 outside", "p p f", 5.49), overlap, 1e-7);
+  // walls of radius 3: R is the geometric mean of those along the axis and around it
+  const double in = overlap_under(400.0 * mass, 0.5 / std::sqrt(1.0 - 0.5 / 3.0));
+  const double out = overlap_under(400.0 * mass, 0.5 / std::sqrt(1.0 + 0.5 / 3.0));
+  EXPECT_NEAR(1.5 - rest_height("cylinder x 4 4 3 inside", "p f f", 1.49), in, 1e-7);
+  EXPECT_NEAR(5.5 - rest_height("cylinder y 4 2 3 outside", "p p f", 5.49), out, 1e-7);
 }
 
 TEST(Wall, plane_scene)

@@ -1,0 +1,155 @@
+#include "wall_grid.h"
+
+#include "comm.h"
+#include "error.h"
+
+#include "wall/grid_survey.h"
+#include "wall/isosurface.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+static const std::string prefix = "distance_";
+static constexpr double crease = 0.1;      // of the slope's size: there is no distance
+static constexpr double flat = 1.0e-6;     // curvature that is rounding, in the same units
+static constexpr double uniform = 0.02;    // spread of a curvature that counts as the same, in
+                                           // units of the inverse radius of the largest particle
+
+/* ---------------------------------------------------------------------- */
+
+WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_in,
+                   const std::vector<std::string> &arrays, int largest_pieces, int iarg) :
+    GridFile(lmp, command_in, path_in, iarg)
+{
+  make_lattice(false, "");
+  choose(arrays, largest_pieces);
+  size = apf::GridDistance::size(lattice);
+  allocate(size * pieces.size());
+  for (size_t n = 0; n < pieces.size(); n++)
+    attempt([&] {
+      const auto nodes = nodes_of(file->read(pieces[n], 1, 0, layers()), 1);
+      apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
+    });
+  file.reset();
+  position = Error::NOLASTLINE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallGrid::choose(const std::vector<std::string> &wanted, int most)
+{
+  std::string list;    // with a blank behind each name
+  attempt([&] {
+    auto names = wanted;
+    if (names.empty()) {
+      for (const auto &name : file->arrays())
+        if (name.compare(0, prefix.size(), prefix) == 0) names.push_back(name);
+      std::sort(names.begin(), names.end());
+    }
+    if (names.empty()) names.push_back("distance");
+    for (const auto &name : names) list += name + " ";
+  });
+  int length = list.size();
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  list.resize(length);
+  MPI_Bcast(list.data(), length, MPI_CHAR, 0, world);
+  pieces = utils::split_words(list);
+  if (static_cast<int>(pieces.size()) > most)
+    error->all(FLERR, position, "{} file {}: it holds {} arrays {}*, at most {} are allowed",
+               command, path, pieces.size(), prefix, most);
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<apf::Surface> WallGrid::surfaces() const
+{
+  std::vector<apf::Surface> all;
+  for (size_t n = 0; n < pieces.size(); n++)
+    all.push_back(apf::Surface::gridded(apf::GridDistance(lattice, numbers.data() + n * size)));
+  return all;
+}
+
+/* ----------------------------------------------------------------------
+   centres of particles that touch are about a radius away
+------------------------------------------------------------------------- */
+
+void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double largest,
+                     double error_allowed) const
+{
+  double spacing = 0.0;
+  for (int axis = 0; axis < lattice.dims; axis++)
+    spacing = std::max(spacing, lattice.spacing[axis]);
+  for (size_t n = 0; n < pieces.size(); n++) {
+    apf::GridSurvey survey;
+    if (comm->me == 0)
+      survey = apf::GridSurvey::of(lattice, all[n].grid, 0.9 * smallest, 1.05 * largest + spacing);
+    MPI_Bcast(&survey, sizeof(survey), MPI_BYTE, 0, world);
+    const std::string where = fmt::format("{} file {}: array {}", command, path, pieces[n]);
+    if (survey.nodes == 0) {
+      if (comm->me == 0)
+        error->warning(FLERR, "{} has no node that is {} to {} from the wall: nothing can touch it",
+                       where, smallest, largest);
+      continue;
+    }
+    const auto at = [](const double *x) {
+      return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
+    };
+    // an edge's rim, seen from the distance of a radius, has a jump of curvature of 1/radius
+    const double of_edges = std::max(
+        error_allowed, 2.0 * apf::GridDistance::error_constant * spacing * spacing / smallest);
+    const bool kinked = survey.edge_error > of_edges;
+    if (survey.slope_error > crease || kinked)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} is not a smooth distance at {}, where particles may touch: the size of its "
+                 "slope differs from 1 by {:.2g}; concave corners need an array for each side, "
+                 "edges a spacing below a third of a radius, {:.4g}, and gaps must be wider than "
+                 "particles",
+                 where, at(kinked ? survey.edge_at : survey.slope_at), survey.slope_error,
+                 smallest / 3.0);
+    if (survey.error > error_allowed)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} is known to {:.3g} only at {}, where particles may touch, and {:.3g} is asked "
+                 "for: use a spacing of {:.3g} instead of {:.3g}, or keyword resolution",
+                 where, survey.error, at(survey.error_at), error_allowed,
+                 0.95 * spacing * std::pow(error_allowed / survey.error, 0.25), spacing);
+    auto &surface = all[n];
+    surface.uniform = std::max(survey.spread[0], survey.spread[1]) * largest < uniform;
+    for (int c = 0; c < 2; c++) {
+      const bool bends = std::fabs(survey.curvature[c]) * largest > flat;
+      surface.curvature[c] = surface.uniform && bends ? survey.curvature[c] : 0.0;
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   A piece's field goes on beyond the rim of the piece, behind the other pieces: what is there is
+   not part of the wall.
+------------------------------------------------------------------------- */
+
+std::vector<WallGrid::Facet> WallGrid::facets() const
+{
+  std::vector<Facet> all;
+  const auto fields = surfaces();
+  std::vector<double> values(lattice.nodes());
+  const double spacing = *std::min_element(lattice.spacing, lattice.spacing + lattice.dims);
+  for (const auto &field : fields) {
+    for_each_node(lattice, [&](int i, int j, int k, std::size_t node) {
+      const int index[3] = {i, j, k};
+      double x[3] = {};
+      for (int axis = 0; axis < lattice.dims; axis++)
+        x[axis] = lattice.origin[axis] + index[axis] * lattice.spacing[axis];
+      values[node] = field.grid.distance(x);
+    });
+    apf::Isosurface(lattice, values).for_each([&](const std::array<double, 3> *corners) {
+      const auto &last = corners[lattice.dims - 1];
+      double middle[3];
+      for (int c = 0; c < 3; c++) middle[c] = (corners[0][c] + corners[1][c] + last[c]) / 3.0;
+      for (const auto &other : fields)
+        if (&other != &field && other.grid.distance(middle) < -0.25 * spacing) return;
+      all.push_back({corners[0], corners[1], last});
+    });
+  }
+  return all;
+}

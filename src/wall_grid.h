@@ -1,0 +1,43 @@
+// Distances to walls from a file: one array for each smooth piece of the wall.
+
+#ifndef LMP_WALL_GRID_H
+#define LMP_WALL_GRID_H
+
+#include "grid_file.h"
+
+#include "wall/surface.h"
+
+#include <array>
+
+namespace LAMMPS_NS {
+
+class WallGrid : public GridFile {
+ public:
+  // arrays: their names, or none for those that the file offers: all distance_*, else distance.
+  // largest_pieces: most arrays that are allowed.
+  WallGrid(LAMMPS *, const char *command, const std::string &path,
+           const std::vector<std::string> &arrays, int largest_pieces, int iarg);
+
+  const std::vector<std::string> &names() const { return pieces; }    // of the arrays
+  std::vector<apf::Surface> surfaces() const;                         // one for each
+
+  // What particles touch, whose radii lie between two values: that it is a distance, and exact to
+  // `error`. Errors if not. Sets the surfaces' curvatures. Called by all ranks.
+  void check(std::vector<apf::Surface> &, double smallest, double largest, double error) const;
+
+  // The wall in triangles, in the plane in lines whose last two points are the same; for pictures.
+  using Facet = std::array<std::array<double, 3>, 3>;
+  std::vector<Facet> facets() const;
+
+  double memory_usage() const { return numbers.bytes(); }
+
+ private:
+  std::vector<std::string> pieces;
+  std::size_t size = 0;    // numbers of a piece
+
+  void choose(const std::vector<std::string> &wanted, int most);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
