@@ -40,8 +40,8 @@ class GridFile : protected Pointers {
   void attempt(const std::function<void()> &work) const;
   // Memory for so many numbers. Errors if there is not enough.
   void allocate(std::size_t count);
-  // The lattice of the file in the box, which it must cover unless it may be continued; advice: what
-  // the error says to do then.
+  // The lattice of the file in the box, which it must cover unless it may be continued; advice:
+  // what the error says to do then.
   void make_lattice(bool continued, const char *advice);
   // An array of the file, with so many components per node, at the different nodes of the lattice.
   std::vector<double> nodes_of(const std::vector<double> &values, int components) const;

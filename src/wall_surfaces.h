@@ -18,8 +18,8 @@ class LAMMPS;
 
 constexpr int largest_number_of_surfaces = 32;    // bits of a word
 
-// plane DIM LO HI | cylinder DIM C1 C2 R inside|outside | file F.vtkhdf [array NAME ...]; iarg is left
-// behind the last word. grid: what the file holds, else nothing.
+// plane DIM LO HI | cylinder DIM C1 C2 R inside|outside | file F.vtkhdf [array NAME ...]; iarg is
+// left behind the last word. grid: what the file holds, else nothing.
 std::vector<apf::Surface> parse_surfaces(LAMMPS *lmp, const char *command, int narg, char **arg,
                                          int &iarg, std::unique_ptr<WallGrid> &grid);
 

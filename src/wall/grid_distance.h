@@ -116,8 +116,8 @@ class GridDistance {
     return value;
   }
 
-  // Curvatures of the surface of equal distance through x, [0] the one of larger size; > 0 where it
-  // bends away from the fluid (around a sphere in it). In the plane the second one is 0.  [1/length]
+  // Curvatures of the surface of equal distance through x, the larger one first; > 0 where it bends
+  // away from the fluid (around a sphere in it). In the plane the second one is 0.     [1/length]
   void curvatures(const double *x, double *kappa) const
   {
     double slope[3], h[3][3] = {};

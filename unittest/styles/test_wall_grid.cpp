@@ -1,5 +1,5 @@
-// Fix wall/levelset file: the wall from distances at the nodes of a grid against planes, circles and
-// edges in closed form.
+// Fix wall/levelset file: the wall from distances at the nodes of a grid against planes, circles
+// and edges in closed form.
 
 #include "scenes.h"
 #include "temporary_file.h"
