@@ -18,8 +18,8 @@ class TemporaryFile {
   {
     int id = static_cast<int>(getpid());
     MPI_Bcast(&id, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    path = (std::filesystem::temp_directory_path() / (name + std::to_string(id) + extension))
-               .string();
+    path =
+        (std::filesystem::temp_directory_path() / (name + std::to_string(id) + extension)).string();
   }
   ~TemporaryFile()
   {
