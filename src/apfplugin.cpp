@@ -7,6 +7,7 @@
 #include "version.h"
 
 #include "compute_aggregate_contact.h"
+#include "compute_wall_deposit.h"
 #include "fix_contact_history.h"
 #include "fix_flow_concentration.h"
 #include "fix_flow_field.h"
@@ -89,4 +90,7 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
 
   creates_with_words(&create_with_words<ComputeAggregateContact>);
   add("compute", "aggregate/contact", "aggregates of touching particles, APF " APF_VERSION);
+
+  creates_with_words(&create_with_words<ComputeWallDeposit>);
+  add("compute", "wall/deposit", "what has settled on a wall, APF " APF_VERSION);
 }

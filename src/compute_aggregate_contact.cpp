@@ -92,6 +92,14 @@ void ComputeAggregateContact::init()
                force->pair ? force->pair_style : "none");
 }
 
+std::unique_ptr<ComputeAggregateContact> ComputeAggregateContact::of_all(LAMMPS *lmp, Pair *pair)
+{
+  if (contact_lists(pair).empty()) return nullptr;
+  char id[] = "aggregates", group[] = "all", style[] = "aggregate/contact";
+  char *words[] = {id, group, style};
+  return std::make_unique<ComputeAggregateContact>(lmp, 3, words);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void ComputeAggregateContact::compute_peratom()
@@ -202,13 +210,36 @@ void ComputeAggregateContact::spread_labels()
   }
 }
 
+void ComputeAggregateContact::measure_aggregates()
+{
+  std::vector<std::uint64_t> wall(atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++) wall[i] = n_wall_contacts[i] > 0;
+  std::vector<int> part_of;
+  const auto parts = gather_parts(wall, part_of);
+  write_rows(parts, part_of);
+}
+
+void ComputeAggregateContact::spread(std::vector<std::uint64_t> &bits)
+{
+  compute_peratom();
+  std::vector<int> part_of;
+  const auto parts = gather_parts(bits, part_of);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (part_of[i] >= 0) bits[i] = parts[part_of[i]].marks;
+}
+
 // Each rank sends what it has of every aggregate to the rank that the ID of the aggregate hashes to
 // and gets the sums back. A particle without contacts is all of its aggregate and is not sent.
-void ComputeAggregateContact::measure_aggregates()
+//   marks     of each atom, to be united
+//   part_of   number of each atom's part, -1 without
+std::vector<ComputeAggregateContact::Part>
+ComputeAggregateContact::gather_parts(const std::vector<std::uint64_t> &marks,
+                                      std::vector<int> &part_of)
 {
   const int nlocal = atom->nlocal;
   std::vector<Part> parts;
-  std::vector<int> owners, part_of(nlocal, -1);
+  std::vector<int> owners;
+  part_of.assign(nlocal, -1);
   std::unordered_map<tagint, int> known;
   for (int i = 0; i < nlocal; i++) {
     if (!n_pair_contacts[i]) continue;
@@ -220,7 +251,7 @@ void ComputeAggregateContact::measure_aggregates()
     }
     auto &part = parts[part_of[i]];
     part.size++;
-    if (n_wall_contacts[i]) part.wall = 1;
+    part.marks |= marks[i];
   }
 
   totals = {};
@@ -232,8 +263,7 @@ void ComputeAggregateContact::measure_aggregates()
   const auto *whole = reinterpret_cast<const Part *>(answer);
   for (int k = 0; k < n; k++) parts[whole[k].position] = whole[k];
   memory->sfree(answer);
-
-  write_rows(parts, part_of);
+  return parts;
 }
 
 void ComputeAggregateContact::write_rows(const std::vector<Part> &parts,
@@ -247,7 +277,7 @@ void ComputeAggregateContact::write_rows(const std::vector<Part> &parts,
   for (int i = 0; i < atom->nlocal; i++) {
     const int inside = label[i] ? 1 : 0;
     const bool single = part_of[i] < 0;
-    const bool wall = single ? n_wall_contacts[i] > 0 : parts[part_of[i]].wall;
+    const bool wall = single ? n_wall_contacts[i] > 0 : parts[part_of[i]].marks != 0;
     array_atom[i][ID] = label[i];
     array_atom[i][SIZE] = single ? inside : parts[part_of[i]].size;
     array_atom[i][WALL] = wall ? 1.0 : 0.0;
@@ -267,7 +297,7 @@ int ComputeAggregateContact::add_parts(int n, char *buf, int &flag, int *&ranks,
   for (int k = 0; k < n; k++) {
     auto &whole = aggregates.emplace(parts[k].id, Part{parts[k].id, 0, 0, 0, 0}).first->second;
     whole.size += parts[k].size;
-    whole.wall |= parts[k].wall;
+    whole.marks |= parts[k].marks;
   }
 
   auto &totals = compute->totals;
@@ -276,7 +306,7 @@ int ComputeAggregateContact::add_parts(int n, char *buf, int &flag, int *&ranks,
     if (whole.size < 2) continue;    // a particle that touches its own periodic image
     totals.particles += whole.size;
     totals.aggregates++;
-    if (!whole.wall) continue;
+    if (!whole.marks) continue;
     totals.wall_particles += whole.size;
     totals.wall_aggregates++;
   }
@@ -285,7 +315,7 @@ int ComputeAggregateContact::add_parts(int n, char *buf, int &flag, int *&ranks,
   for (int k = 0; k < n; k++) {
     const Part &whole = aggregates.at(parts[k].id);
     parts[k].size = whole.size;
-    parts[k].wall = whole.wall;
+    parts[k].marks = whole.marks;
     ranks[k] = parts[k].rank;
   }
   answer = buf;

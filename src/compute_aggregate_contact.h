@@ -11,6 +11,8 @@ ComputeStyle(aggregate/contact,ComputeAggregateContact);
 
 #include "compute.h"
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -28,17 +30,24 @@ class ComputeAggregateContact : public Compute {
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
 
+  // Bits of each atom of this rank become those of all atoms of its aggregate together. Called by
+  // all ranks.
+  void spread(std::vector<std::uint64_t> &bits);
+
+  // aggregates of all particles, for a fix; nullptr if the pair style keeps no contacts
+  static std::unique_ptr<ComputeAggregateContact> of_all(class LAMMPS *, class Pair *);
+
  private:
   struct Contact {
     int i, j;    // owned or ghost atoms
     int root;    // the atom that stands for all that are connected with i and j on this rank
   };
-  struct Part {      // what one rank holds of an aggregate; after the count: all of it
-    tagint id;       // smallest atom ID of the aggregate
-    bigint size;     // particles
-    int wall;        // 1 if one of them touches a wall
-    int rank;        // where the part came from
-    int position;    // and its number there
+  struct Part {             // what one rank holds of an aggregate; after the count: all of it
+    tagint id;              // smallest atom ID of the aggregate
+    bigint size;            // particles
+    std::uint64_t marks;    // bits of all of them
+    int rank;               // where the part came from
+    int position;           // and its number there
   };
   struct Totals {
     bigint particles, aggregates;              // of aggregates of at least two particles
@@ -61,6 +70,8 @@ class ComputeAggregateContact : public Compute {
   void connect_contacts();
   void spread_labels();
   void measure_aggregates();
+  std::vector<Part> gather_parts(const std::vector<std::uint64_t> &marks,
+                                 std::vector<int> &part_of);
   void write_rows(const std::vector<Part> &, const std::vector<int> &);
   static int add_parts(int, char *, int &, int *&, char *&, void *);
 };

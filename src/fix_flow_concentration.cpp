@@ -4,13 +4,13 @@
 #include "domain.h"
 #include "error.h"
 #include "known_walls.h"
-#include "math_const.h"
 #include "modify.h"
 #include "particle_checks.h"
 #include "respa.h"
 #include "update.h"
 
 #include "flow/di_felice.h"
+#include "flow/particle_slab.h"
 
 #include <cmath>
 #include <cstring>
@@ -208,11 +208,9 @@ void FixFlowConcentration::renew()
   grid.fill_ghosts();
 }
 
-// In two dimensions a particle counts in a slab as thick as itself.
 double FixFlowConcentration::volume(int i) const
 {
-  const double r = atom->radius[i];
-  return 4.0 / 3.0 * MathConst::MY_PI * r * r * (domain->dimension == 2 ? 0.5 : r);
+  return apf::particle_volume(atom->radius[i], domain->dimension == 2);
 }
 
 /* ----------------------------------------------------------------------

@@ -2,11 +2,13 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "compute_aggregate_contact.h"
 #include "contact/jump.h"
 #include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
+#include "force.h"
 #include "math_extra.h"
 #include "modify.h"
 #include "particle_checks.h"
@@ -16,6 +18,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -43,6 +46,7 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   int iarg = 3;
   surfaces = parse_surfaces(lmp, command, narg, arg, iarg, grid);
   coefficient = parse_contact(lmp, command, narg, arg, iarg, 0);
+  const auto names = surface_names(surfaces, grid.get());
   while (iarg < narg) {
     if (strcmp(arg[iarg], "move") == 0) {
       motion.parse(command, narg, arg, iarg);
@@ -54,18 +58,28 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
       if (!grid) error->all(FLERR, iarg, "{} resolution is for walls from a file", command);
       iarg += 2;
     } else if (strcmp(arg[iarg], "zone") == 0) {
-      error->all(FLERR, iarg, "{} keyword zone is not available in this version", command);
+      ledger.parse(command, names, narg, arg, iarg);
     } else {
       error->all(FLERR, iarg,
                  "{} keyword {} is unknown; known are damping, sliding, twisting, rolling, "
-                 "break, scale_stiffness, move, resolution",
+                 "break, scale_stiffness, move, resolution, zone",
                  command, arg[iarg]);
     }
   }
+  ledger.complete(names, grid.get());
+  array_flag = 1;
+  size_array_rows = ledger.n_zones() + 1;
+  size_array_cols = WallLedger::N_COLUMNS;
+  extarray = 0;    // for the counts in it
   choice.planar = domain->dimension == 2;
   choice.include(coefficient.model);
   kernel = apf::contact_kernel(choice);
   register_with_atoms();
+}
+
+FixWallLevelset::~FixWallLevelset()
+{
+  delete[] extlist;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -82,6 +96,8 @@ void FixWallLevelset::init()
   FixContacts::init();
   check_units(lmp, command);
   motion.init();
+  ledger.init(fmt::format("{} {}", command, id));
+  aggregates = ComputeAggregateContact::of_all(lmp, force->pair);
   rigid = nullptr;
   for (const auto &fix : modify->get_fix_list())
     if (fix->rigid_flag) rigid = fix;
@@ -198,6 +214,7 @@ void FixWallLevelset::post_force(int vflag)
   v_init(vflag);
   touched.resize(atom->nmax, 0);
   if (rebuild) find_again();
+  ledger.move_regions();
   const auto times = lender ? lender->times() : take_velocities();
   if (lender) recall_due(times);
   motion.pose.advance(times.advance);
@@ -261,9 +278,11 @@ void FixWallLevelset::touch(int i, int surface)
                "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
                "inside, or use a smaller timestep",
                command, id, atom->tag[i], -foot.distance);
+  const Marks others = zones_of(i);
   close(i, surface, apf::ContactHistory());
   note_touch(approach_of(i, foot), atom->radius[i], contacts.mode(contacts.size() - 1));
   captured += 1.0;
+  ledger.begin(zone_of(i, surface), others);
 }
 
 void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &history)
@@ -342,6 +361,7 @@ void FixWallLevelset::remove_ended(bool in_sub_step)
     if (!contacts.ended(k)) continue;
     if (in_sub_step) near.push_back({contacts.source[k], surface_of[k]});
     touched[contacts.source[k]] &= ~(1u << surface_of[k]);
+    ledger.end(zone_of(contacts.source[k], surface_of[k]), zones_of(contacts.source[k]));
     contacts.remove(k);
     surface_of[k] = surface_of.back();
     surface_of.pop_back();
@@ -352,6 +372,23 @@ void FixWallLevelset::remove_ended(bool in_sub_step)
     detached += 1.0;
     count_anew();
   }
+}
+
+// of the foot of a particle
+int FixWallLevelset::zone_of(int i, int surface)
+{
+  double x[3];
+  particles().position(i, x);
+  return ledger.zone_of(surface, foot_of(surface, x).at);
+}
+
+// ... and of all feet on surfaces that it touches
+Marks FixWallLevelset::zones_of(int i)
+{
+  Marks zones = 0;
+  for (int s = 0; touched[i] >> s; s++)
+    if (touched[i] >> s & 1) zones |= ledger.mark(zone_of(i, s));
+  return zones;
 }
 
 /* ----------------------------------------------------------------------
@@ -411,6 +448,14 @@ void FixWallLevelset::add_due()
   for (const auto &[i, f] : due) {
     particles().add_load(i, f, no_torque);
     const double *x = atom->x[i];
+    int nearest = 0;    // surface; the contact itself may be gone
+    double least = std::numeric_limits<double>::max();
+    for (int s = 0; s < static_cast<int>(surfaces.size()); s++) {
+      const double d = foot_of(s, x).distance;
+      if (d < least) nearest = s;
+      least = std::min(least, d);
+    }
+    auto &loads = ledger.load(zone_of(i, nearest));
     for (int c = 0; c < 3; c++) {
       const int a = (c + 1) % 3, b = (c + 2) % 3;
       atom->f[i][c] += f[c];
@@ -434,14 +479,15 @@ void FixWallLevelset::return_loads()
 // ... and to LAMMPS: forces on particles and on the wall, virial
 void FixWallLevelset::tally(int vflag)
 {
-  std::fill(loads, loads + 6, 0.0);
-  loads_summed = false;
+  ledger.clear_loads();
+  loads_summed = settled = false;
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.source[k];
     double f[3] = {}, torque[3] = {}, on_wall[3] = {}, moment[3] = {}, foot[3];
     rows.add_load_to(2 * k, f, torque);
     rows.add_load_to(2 * k + 1, on_wall, moment);
     rows.position(2 * k + 1, foot);
+    auto &loads = ledger.load(ledger.zone_of(surface_of[k], foot));
     for (int c = 0; c < 3; c++) {
       atom->f[i][c] += f[c];
       atom->torque[i][c] += torque[c];
@@ -602,6 +648,14 @@ double FixWallLevelset::distance(const double *x) const
   return nearest;
 }
 
+double FixWallLevelset::distance(const double *x, Marks of_surfaces) const
+{
+  double nearest = std::numeric_limits<double>::max();
+  for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
+    if (of_surfaces >> s & 1) nearest = std::min(nearest, foot_of(s, x).distance);
+  return nearest;
+}
+
 /* ----------------------------------------------------------------------
    [0] elastic and adhesive energy of all wall contacts
 ------------------------------------------------------------------------- */
@@ -626,7 +680,8 @@ double FixWallLevelset::compute_vector(int n)
 {
   if (!loads_summed) {
     double mine[9];
-    std::copy(loads, loads + 6, mine);
+    const auto loads = ledger.total_load();
+    std::copy(loads.begin(), loads.end(), mine);
     mine[6] = contacts.size();
     mine[7] = captured;
     mine[8] = detached;
@@ -636,15 +691,34 @@ double FixWallLevelset::compute_vector(int n)
   return all_loads[n];
 }
 
+// rows: zones of the wall, and the whole of it
+double FixWallLevelset::compute_array(int row, int column)
+{
+  if (!settled) ledger.settle(touches(), aggregates.get());
+  settled = true;
+  return ledger.entry(row, column);
+}
+
+std::vector<WallTouch> FixWallLevelset::touches()
+{
+  if (rebuild) find_again();
+  std::vector<WallTouch> all;
+  for (int k = 0; k < contacts.size(); k++) {
+    const int i = contacts.source[k], s = surface_of[k];
+    all.push_back({i, s, zone_of(i, s)});
+  }
+  return all;
+}
+
 std::vector<double> FixWallLevelset::global_state() const
 {
   double mine[2] = {captured, detached}, all[2];
   MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
   std::vector<double> state = {all[0], all[1], motion.pose.moves ? 1.0 : 0.0};
-  if (motion.pose.moves) {
-    state.resize(state.size() + apf::WallPose::state_size);
-    motion.pose.write(&state[3]);
-  }
+  state.resize(3 + apf::WallPose::state_size);
+  motion.pose.write(&state[3]);
+  const auto of_zones = ledger.state();
+  state.insert(state.end(), of_zones.begin(), of_zones.end());
   return state;
 }
 
@@ -655,6 +729,7 @@ void FixWallLevelset::set_global_state(const double *state)
     detached = state[1];
   }
   if (state[2] != 0.0 && motion.pose.moves) motion.pose.read(state + 3);
+  ledger.set_state(state + 3 + apf::WallPose::state_size, fmt::format("{} {}", command, id));
 }
 
 /* ----------------------------------------------------------------------

@@ -11,6 +11,7 @@ FixStyle(wall/levelset,FixWallLevelset);
 
 #include "contact/contact_kernel.h"
 #include "contact_keywords.h"
+#include "wall_ledger.h"
 #include "wall_motion.h"
 #include "wall_surfaces.h"
 
@@ -21,7 +22,7 @@ namespace LAMMPS_NS {
 class FixWallLevelset : public FixContacts {
  public:
   FixWallLevelset(class LAMMPS *, int, char **);
-  ~FixWallLevelset() override { delete[] extlist; }
+  ~FixWallLevelset() override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -32,6 +33,7 @@ class FixWallLevelset : public FixContacts {
   void post_neighbor() override;
   double compute_scalar() override;
   double compute_vector(int) override;
+  double compute_array(int, int) override;
   void *extract(const char *, int &) override;
   int image(int *&, double **&) override;
   double memory_usage() override;
@@ -43,6 +45,13 @@ class FixWallLevelset : public FixContacts {
   double distance(const double *x) const;    // > 0 in the fluid; of the nearest surface
   double contacts_here() const override { return contacts.size(); }
   void find_stiffest(apf::Stiffest &) override;
+
+  // ---- for compute wall/deposit
+  WallLedger &zones() { return ledger; }
+  std::vector<WallTouch> touches();
+  double distance(const double *x, Marks of_surfaces) const;    // of the nearest of these
+  // of all particles; nullptr if the pair style keeps no contacts
+  class ComputeAggregateContact *all_aggregates() { return aggregates.get(); }
 
  protected:
   void store_contacts() override;
@@ -82,9 +91,10 @@ class FixWallLevelset : public FixContacts {
   class FixContactHistory *lender = nullptr;    // has the particles' rows already: pair's fix
   class Fix *rigid = nullptr;
   double captured = 0.0, detached = 0.0;    // contacts begun and ended, of this rank
-  double loads[6] = {};                     // force and torque on the wall, of this rank
+  WallLedger ledger{lmp, surfaces};         // force and torque on zones of the wall
   double all_loads[9] = {};                 // the same over all ranks, contacts, begun, ended
-  bool loads_summed = false;
+  bool loads_summed = false, settled = false;
+  std::unique_ptr<ComputeAggregateContact> aggregates;
   std::vector<int> count_of_atom;    // for other styles: contacts of each atom
   std::unique_ptr<WallImage> drawn;
 
@@ -105,6 +115,8 @@ class FixWallLevelset : public FixContacts {
   bigint shared_at[2] = {-1,
                          -1};    // changes here and counts of the lender when masses were shared
   void remove_ended(bool in_sub_step);
+  int zone_of(int i, int surface);
+  Marks zones_of(int i);
   void gather();
   int add_forces(const apf::ContactTimes &, int made);
   void add_due();

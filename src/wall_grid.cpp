@@ -63,6 +63,14 @@ void WallGrid::choose(const std::vector<std::string> &wanted, int most)
 
 /* ---------------------------------------------------------------------- */
 
+std::vector<std::string> WallGrid::names() const
+{
+  auto all = pieces;
+  for (auto &name : all)
+    if (name.compare(0, prefix.size(), prefix) == 0) name.erase(0, prefix.size());
+  return all;
+}
+
 std::vector<apf::Surface> WallGrid::surfaces() const
 {
   std::vector<apf::Surface> all;
@@ -128,28 +136,27 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
    not part of the wall.
 ------------------------------------------------------------------------- */
 
-std::vector<WallGrid::Facet> WallGrid::facets() const
+std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
 {
   std::vector<Facet> all;
   const auto fields = surfaces();
+  const auto &field = fields[piece];
   std::vector<double> values(lattice.nodes());
   const double spacing = *std::min_element(lattice.spacing, lattice.spacing + lattice.dims);
-  for (const auto &field : fields) {
-    for_each_node(lattice, [&](int i, int j, int k, std::size_t node) {
-      const int index[3] = {i, j, k};
-      double x[3] = {};
-      for (int axis = 0; axis < lattice.dims; axis++)
-        x[axis] = lattice.origin[axis] + index[axis] * lattice.spacing[axis];
-      values[node] = field.grid.distance(x);
-    });
-    apf::Isosurface(lattice, values).for_each([&](const std::array<double, 3> *corners) {
-      const auto &last = corners[lattice.dims - 1];
-      double middle[3];
-      for (int c = 0; c < 3; c++) middle[c] = (corners[0][c] + corners[1][c] + last[c]) / 3.0;
-      for (const auto &other : fields)
-        if (&other != &field && other.grid.distance(middle) < -0.25 * spacing) return;
-      all.push_back({corners[0], corners[1], last});
-    });
-  }
+  for_each_node(lattice, [&](int i, int j, int k, std::size_t node) {
+    const int index[3] = {i, j, k};
+    double x[3] = {};
+    for (int axis = 0; axis < lattice.dims; axis++)
+      x[axis] = lattice.origin[axis] + index[axis] * lattice.spacing[axis];
+    values[node] = field.grid.distance(x);
+  });
+  apf::Isosurface(lattice, values).for_each([&](const std::array<double, 3> *corners) {
+    const auto &last = corners[lattice.dims - 1];
+    double middle[3];
+    for (int c = 0; c < 3; c++) middle[c] = (corners[0][c] + corners[1][c] + last[c]) / 3.0;
+    for (const auto &other : fields)
+      if (&other != &field && other.grid.distance(middle) < -0.25 * spacing) return;
+    all.push_back({corners[0], corners[1], last});
+  });
   return all;
 }

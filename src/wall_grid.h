@@ -18,16 +18,17 @@ class WallGrid : public GridFile {
   WallGrid(LAMMPS *, const char *command, const std::string &path,
            const std::vector<std::string> &arrays, int largest_pieces, int iarg);
 
-  const std::vector<std::string> &names() const { return pieces; }    // of the arrays
-  std::vector<apf::Surface> surfaces() const;                         // one for each
+  std::vector<std::string> names() const;        // of the arrays, without distance_
+  std::vector<apf::Surface> surfaces() const;    // one for each
 
   // What particles touch, whose radii lie between two values: that it is a distance, and exact to
   // `error`. Errors if not. Sets the surfaces' curvatures. Called by all ranks.
   void check(std::vector<apf::Surface> &, double smallest, double largest, double error) const;
 
-  // The wall in triangles, in the plane in lines whose last two points are the same; for pictures.
+  // A piece in triangles, in the plane in lines whose last two points are the same; for pictures
+  // and areas.
   using Facet = std::array<std::array<double, 3>, 3>;
-  std::vector<Facet> facets() const;
+  std::vector<Facet> facets(int piece) const;
 
   double memory_usage() const { return numbers.bytes(); }
 

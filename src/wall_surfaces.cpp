@@ -85,6 +85,19 @@ std::vector<apf::Surface> LAMMPS_NS::parse_surfaces(LAMMPS *lmp, const char *com
   return surfaces;
 }
 
+std::vector<std::string> LAMMPS_NS::surface_names(const std::vector<apf::Surface> &surfaces,
+                                                  const WallGrid *grid)
+{
+  if (grid) return grid->names();
+  std::vector<std::string> names;
+  for (const auto &surface : surfaces)
+    if (surface.shape == apf::Surface::Shape::cylinder)
+      names.push_back("cylinder");
+    else
+      names.push_back(surface.side > 0.0 ? "lo" : "hi");
+  return names;
+}
+
 /* ---------------------------------------------------------------------- */
 
 WallImage::WallImage(const std::vector<apf::Surface> &surfaces, const WallGrid *grid,
@@ -96,9 +109,9 @@ WallImage::WallImage(const std::vector<apf::Surface> &surfaces, const WallGrid *
       draw_plane(surface, domain);
     else if (surface.shape == apf::Surface::Shape::cylinder)
       draw_cylinder(surface, domain);
-  if (grid)
-    for (const auto &piece : grid->facets())
-      add(flat ? Graphics::LINE : Graphics::TRI, piece[0], piece[1], piece[2]);
+  for (int s = 0; grid && s < static_cast<int>(surfaces.size()); s++)
+    for (const auto &facet : grid->facets(s))
+      add(flat ? Graphics::LINE : Graphics::TRI, facet[0], facet[1], facet[2]);
   for (auto &row : values) rows.push_back(row.data());
 }
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -22,6 +23,10 @@ constexpr int largest_number_of_surfaces = 32;    // bits of a word
 // left behind the last word. grid: what the file holds, else nothing.
 std::vector<apf::Surface> parse_surfaces(LAMMPS *lmp, const char *command, int narg, char **arg,
                                          int &iarg, std::unique_ptr<WallGrid> &grid);
+
+// what they are called: lo, hi, cylinder; of a file by its array, without distance_
+std::vector<std::string> surface_names(const std::vector<apf::Surface> &surfaces,
+                                       const WallGrid *grid);
 
 // Lines in the plane, triangles in space, kept for Fix::image().
 class WallImage {

@@ -264,7 +264,15 @@ TEST(WallErrors, shape)
       {"cylinder z 5 5 3 within" + law, {"must be inside or outside, got within"}},
       {"file wall.vtkhdf" + law, {"file wall.vtkhdf: cannot be opened"}},
       {"sphere 5 5 5 3" + law, {"shape must be plane, cylinder or file, got sphere"}},
-      {"plane y 0 10" + law + " zone inlet", {"keyword zone is not available in this version"}},
+      {"plane y 0 10" + law + " zone inlet", {"fix wall/levelset zone " + missing}},
+      {"plane y 0 10" + law + " zone rest lo", {"zone name rest is taken"}},
+      {"plane y 0 10" + law + " zone total lo", {"zone name total is taken"}},
+      {"plane y 0 10" + law + " zone a lo zone a hi", {"zone name a is given twice"}},
+      {"plane y 0 10" + law + " zone a cylinder",
+       {"zone a: cylinder is neither a surface of this wall nor a region", "surfaces are lo hi"}},
+      {"plane y NULL 10" + law + " zone a lo", {"lo is neither", "surfaces are hi"}},
+      {"cylinder z 5 5 3 inside" + law + " zone a lo", {"lo is neither", "surfaces are cylinder"}},
+      {"plane y 0 10" + law + " zone a lo sliding 0.3", {"keyword sliding is unknown"}},
   };
   for (auto &row : table) row.input = "fix w all wall/levelset " + row.input;
   expect_errors(particles, table);
@@ -282,6 +290,32 @@ TEST(WallErrors, scene)
                 {{wall + "cylinder x 0 0 1 inside" + law,
                   {"cylinder axis must be z in 2 dimensions, got x"}}});
   expect_errors("", {{wall + "plane y 0 NULL" + law, {"before simulation box"}}});
+}
+
+TEST(WallErrors, region_of_a_zone_is_deleted)
+{
+  expect_errors(particles + "pair_style zero 2\npair_coeff * *\n",
+                {{"region a block 0 1 0 1 0 1\n"
+                  "fix w all wall/levelset plane y 0 10 jkr 1e6 0.3 0 zone in a\n"
+                  "region a delete\nrun 0",
+                  {"Fix wall/levelset w", "region a of zone in does not exist any more"}}});
+}
+
+TEST(WallErrors, compute_wall_deposit)
+{
+  const std::string wall = "fix w all wall/levelset plane y 0 10 jkr 1e6 0.3 0\n",
+                    deposit = "compute d all wall/deposit";
+  expect_errors(particles + "pair_style zero 2\npair_coeff * *\n",
+                {{deposit, {"compute wall/deposit command: missing argument"}},
+                 {deposit + " w", {"needs the ID of a fix wall/levelset, got w"}},
+                 {wall + deposit + " w zones lo", {"keyword zones is unknown; known is zone"}},
+                 {wall + deposit + " w zone", {"missing argument"}},
+                 {wall + deposit + " w zone lo hi", {"takes one zone, got also hi"}},
+                 {wall + deposit + " w zone mid", {"fix w has no zone mid; its zones are lo hi"}},
+                 {wall + deposit + " w\nunfix w\nrun 0", {"needs the ID of a fix", "got w"}},
+                 {wall + deposit + " w\nunfix w\n" +
+                      "fix w all wall/levelset plane y 0 NULL jkr 1e6 0.3 0\nrun 0",
+                  {"fix w has other zones", "define it again"}}});
 }
 
 TEST(WallErrors, while_running)

@@ -414,3 +414,22 @@ TEST(RanksWallGrid, sphere_in_a_sphere_with_restart)
   EXPECT_GT(largest(whole.v), 0.1);
   expect_same(parts, whole, 1e-12);
 }
+
+// Each array is a zone, named after it, with the area of its surface.
+TEST(WallGrid, pieces_are_zones)
+{
+  const auto half_circle = [](double side) {
+    return [side](const double *x) {    // two circles of radius 1
+      return std::hypot(x[0] - (4.0 + 2.0 * side), x[1] - 4.0) - 1.0;
+    };
+  };
+  GridScene scene(2, 0.1,
+                  {{"distance_left", half_circle(-1.0)}, {"distance_right", half_circle(1.0)}},
+                  {{0.51, 4.0, 0.0}, {2.0, 5.49, 0.0}, {6.0, 5.49, 0.0}}, jkr);
+  scene.sim.run("run 0");
+  EXPECT_EQ(scene.sim.value("f_wall[1][8]"), 2.0);    // attached
+  EXPECT_EQ(scene.sim.value("f_wall[2][8]"), 1.0);
+  EXPECT_EQ(scene.sim.value("f_wall[3][8]"), 3.0);
+  for (int row : {1, 2})    // chords of a tenth: 1 - h^2/24 or better
+    EXPECT_NEAR(scene.sim.value("f_wall[" + std::to_string(row) + "][13]") / (2.0 * pi), 1.0, 1e-3);
+}
