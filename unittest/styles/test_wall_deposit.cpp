@@ -82,7 +82,7 @@ TEST(RanksDeposit, one_zone)
   expect_near(row(sim, 4), {7.0, 2.91, 7.0 * volume / 128.0});
 }
 
-// The tip is nearer to the ceiling than to the floor: as long as it does not touch, it is the tip of
+// The tip is nearer to the ceiling than to the floor: while it does not touch, it is the tip of
 // a dendrite on the floor.
 TEST(RanksDeposit, height_is_above_the_surface_that_holds)
 {

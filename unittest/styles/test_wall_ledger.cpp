@@ -205,7 +205,7 @@ TEST(RanksLedger, particle_crosses_from_zone_to_zone)
   EXPECT_EQ(counts(sim, 4), (Counts{0, 0, 0, 1, 1}));
 }
 
-// A particle beyond a periodic face that has not been exchanged yet is in the zone at the other end.
+// A particle beyond a periodic face, not exchanged yet, is in the zone at the other end.
 TEST(RanksLedger, zones_are_those_of_the_periodic_image)
 {
   Simulation sim;
