@@ -33,6 +33,7 @@ ComputeWallDeposit::ComputeWallDeposit(LAMMPS *lmp, int narg, char **arg) : Comp
   find_wall(3);
 
   peratom_flag = 1;
+  size_peratom_cols = 0;
   vector_flag = 1;
   size_vector = N_COLUMNS;
   array_flag = 1;

@@ -82,7 +82,7 @@ TEST(RanksLedger, zones_add_up_to_the_vector)
     Simulation sim;
     std::vector<Sphere> spheres;
     for (int n = 0; n < 9; n++)
-      spheres.push_back({0.9 + 1.3 * (n % 3), 0.8 + 2.1 * (n / 3), 0.6 + 0.07 * n});
+      spheres.push_back({0.9 + 1.3 * (n % 3), 0.8 + 2.1 * (n / 3), 0.505 + 0.01 * n});
     build(sim, spheres, at_wall(halves + floor_law + all_friction + " zone a left zone b right"));
     sim.run("velocity all set 3 1 -4\n" + integrate + "run 150\nrun 150\nrun 1");
     double largest_force = 0.0;
@@ -259,12 +259,12 @@ TEST(Ledger, areas_are_those_of_geometry)
        "region a block 6 9 -1 9 -1 3\n",
        "cylinder z 5 4 2 outside" + jkr + "zone a a",
        {3.0 * cap, 32.0 * pi - 3.0 * cap, 32.0 * pi}},
-      {"p p f", "", "cylinder x 4 0 2 outside" + jkr, {16.0 * pi, 16.0 * pi}},    // half of it
+      {"p p f", "", "cylinder x 0 4 2 outside" + jkr, {16.0 * pi, 16.0 * pi}},    // half of it
   };
   for (const auto &row : table) {
     SCOPED_TRACE(row.wall);
     Simulation sim;
-    build(sim, {{1.0, 1.0, 4.0}},
+    build(sim, {{1.0, 5.0, 4.0}},
           at_wall(row.regions + "fix wall all wall/levelset " + row.wall, row.boundary));
     sim.run("run 0");
     for (size_t n = 0; n < row.areas.size(); n++)
