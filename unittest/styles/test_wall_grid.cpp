@@ -213,6 +213,42 @@ TEST(WallGrid, no_work_on_a_closed_way_around_an_edge)
   EXPECT_LT(std::fabs(work), 1e-3 * curve.F_C() * curve.delta_C());
 }
 
+// a plate of thickness 0.02, thinner than the spacing, that ends at x = 4
+static double knife(const double *x)
+{
+  return (x[0] > 4.0 ? std::hypot(x[0] - 4.0, x[1] - 4.0) : std::fabs(x[1] - 4.0)) - 0.01;
+}
+
+// All around the edge of a knife the force is that of JKR. Its rim, where curvature jumps, is seen
+// to second order in the spacing, the direction of the normal there to first order.
+TEST(WallGrid, knife_edge_holds_as_its_faces_do)
+{
+  const auto curve = material.wall();
+  std::vector<double> size_errors, tilts;
+  for (const double spacing : {0.1, 0.05}) {
+    GridScene scene(2, spacing, {{"distance", knife}}, {{3.0, 4.49, 0.0}}, jkr);
+    double size_error = 0.0, tilt = 0.0;
+    for (const double overlap : {0.3 * curve.delta_eq(), 1.3 * curve.delta_eq()}) {
+      const double r = 0.5 + 0.01 - overlap;
+      for (int n = 0; n <= 60; n++) {
+        const double angle = 0.5 * pi * (1.0 - n / 30.0), c = std::cos(angle), s = std::sin(angle);
+        scene.sim.run(at(4.0 + r * c, 4.0 + r * s) + "run 0 post no");
+        const auto f = gather(scene.sim, "f");
+        size_error = std::max(size_error, std::fabs(f[0] * c + f[1] * s - curve.force(overlap)));
+        tilt = std::max(tilt, std::fabs(f[1] * c - f[0] * s));
+      }
+    }
+    size_errors.push_back(size_error / curve.F_C());
+    tilts.push_back(tilt / curve.F_C());
+  }
+  EXPECT_LT(size_errors[1], 0.02);
+  EXPECT_GT(size_errors[0] / size_errors[1], 3.0);
+  EXPECT_LT(size_errors[0] / size_errors[1], 5.5);
+  EXPECT_LT(tilts[1], 0.02);
+  EXPECT_GT(tilts[0] / tilts[1], 1.5);
+  EXPECT_LT(tilts[0] / tilts[1], 3.0);
+}
+
 // An undamped particle that sticks rolls over an edge: nothing is lost or gained
 TEST(WallGrid, edge_is_rolled_over_without_loss)
 {
