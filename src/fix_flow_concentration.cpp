@@ -111,31 +111,38 @@ void FixFlowConcentration::init()
 
 void FixFlowConcentration::set_up()
 {
-  static const char axes[] = "xyz";
+  if (method == Method::FFT && !can_convolve())
+    error->all(FLERR, Error::NOLASTLINE,
+               "{} {}: method fft needs a cloud of at least {} widths of a cell along each axis",
+               command, id, apf::least_convolved);
+  wide = false;
   for (int c = 0; c < domain->dimension; c++)
-    if (domain->periodicity[c] && 2.0 * apf::cloud_reach * radius > domain->prd[c])
-      error->all(
-          FLERR, Error::NOLASTLINE,
-          "{} {}: clouds reach to {} times their radius, which must not be more than half of "
-          "the periodic box: cloud must be <= {:.6g} along {}, got {}",
-          command, id, apf::cloud_reach, 0.5 * domain->prd[c] / apf::cloud_reach, axes[c], radius);
+    if (domain->periodicity[c] && 2.0 * apf::cloud_reach * radius > domain->prd[c]) check_wide(c);
   grid.set_up(1);
-  open.set_up(CloudSum::reach(grid, radius));
+  open.set_up(wide ? 1 : CloudSum::reach(grid, radius));
   mark_fluid();
   closed = walled;
   for (int c = 0; c < domain->dimension; c++) closed |= !grid.periodic[c];
   direct.reset();
   convolution.reset();
-  if (method == Method::FFT && !can_convolve())
-    error->all(FLERR, Error::NOLASTLINE,
-               "{} {}: method fft needs a cloud of at least {} widths of a cell along each axis",
-               command, id, apf::least_convolved);
+}
+
+// A cloud that overlaps its own images can be convolved, not summed.
+void FixFlowConcentration::check_wide(int axis)
+{
+  wide = true;
+  if (method != Method::DIRECT && SlabTransform::available() && can_convolve()) return;
+  error->all(FLERR, Error::NOLASTLINE,
+             "{} {}: clouds reach to {} times their radius; added up directly they must not be "
+             "longer than the periodic box: cloud must be <= {:.6g} along {}, got {}",
+             command, id, apf::cloud_reach, 0.5 * domain->prd[axis] / apf::cloud_reach, "xyz"[axis],
+             radius);
 }
 
 bool FixFlowConcentration::can_convolve() const
 {
   for (int c = 0; c < domain->dimension; c++)
-    if (radius * grid.inverse_spacing[c] < apf::least_convolved) return false;
+    if (radius * grid.n[c] < apf::least_convolved * domain->prd[c]) return false;
   return true;
 }
 
@@ -219,7 +226,7 @@ double FixFlowConcentration::volume(int i) const
 
 bool FixFlowConcentration::by_convolution() const
 {
-  if (method != Method::AUTO) return method == Method::FFT;
+  if (method != Method::AUTO || wide) return method != Method::DIRECT;
   if (!SlabTransform::available() || !can_convolve()) return false;
   auto particles = static_cast<double>(members.size());
   MPI_Allreduce(MPI_IN_PLACE, &particles, 1, MPI_DOUBLE, MPI_SUM, world);
@@ -229,7 +236,8 @@ bool FixFlowConcentration::by_convolution() const
 
 /* ----------------------------------------------------------------------
    A cloud of which little lies in the fluid would be multiplied, with its error: such members
-   remain.
+   remain. The error makes cells that no cloud reaches negative by a little: they become 0, and the
+   others smaller in proportion, so that the volume remains.
 ------------------------------------------------------------------------- */
 
 void FixFlowConcentration::convolve()
@@ -244,15 +252,24 @@ void FixFlowConcentration::convolve()
   for (int i : members) {
     if (!convolution->locate(atom->x[i])) complain_far(atom->x[i]);
     const double share = closed ? convolution->share() : 1.0;
-    if (share < least_share)
+    if (share < least_share) {
+      if (wide) complain_walled(atom->x[i], least_share);
       members[left++] = i;
-    else
+    } else
       convolution->add(volume(i) / (share * grid.cell_volume));
   }
   members.resize(left);
   convolution->end();
+  double sums[2] = {0.0, 0.0};    // of all cells, and of those that are not negative
   grid.for_own_cells([&](int x, int y, int z) {
-    *grid.at(x, y, z) = *open.at(x, y, z) * convolution->at(x, y, z);
+    const double c = *open.at(x, y, z) * convolution->at(x, y, z);
+    sums[0] += c;
+    sums[1] += *grid.at(x, y, z) = MAX(c, 0.0);
+  });
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world);
+  if (sums[0] == sums[1]) return;
+  grid.for_own([scale = sums[0] / sums[1]](double *c) {
+    *c *= scale;
   });
 }
 
@@ -266,6 +283,15 @@ void FixFlowConcentration::add_up()
   grid.for_own_cells([&](int x, int y, int z) {
     *grid.at(x, y, z) += *direct->grid.at(x, y, z);
   });
+}
+
+void FixFlowConcentration::complain_walled(const double *x, double least) const
+{
+  error->one(FLERR, Error::NOLASTLINE,
+             "{} {}: less than {} of the cloud of a particle at {:.8g} {:.8g} {:.8g} lies in the "
+             "fluid; such a cloud is added up directly, and then must be at most an eighth of the "
+             "periodic box, got {}",
+             command, id, least, x[0], x[1], x[2], radius);
 }
 
 void FixFlowConcentration::complain_far(const double *x) const
@@ -289,7 +315,7 @@ void FixFlowConcentration::sample(const apf::PointBlock &points, apf::Lanes &con
       error->one(FLERR, Error::NOLASTLINE,
                  "{} {}: a particle at {:.8g} {:.8g} {:.8g} lies outside the box", command, id,
                  x[0], x[1], x[2]);
-    concentration[l] = MAX(sum, 0.0);    // the error of a convolution has both signs
+    concentration[l] = sum;
   }
 }
 

@@ -46,6 +46,7 @@ class FixFlowConcentration : public FixPerGrid {
   enum class Method { AUTO, DIRECT, FFT } method = Method::AUTO;
   bool walled = false;                 // some cells hold no fluid
   bool closed = false;                 // that, or the box is not periodic
+  bool wide = false;                   // a cloud overlaps its own periodic images
   std::unique_ptr<CloudSum> direct;    // both made when they are needed
   std::unique_ptr<CloudConvolution> convolution;
   std::vector<int> members;    // particles whose clouds are to be added
@@ -53,6 +54,7 @@ class FixFlowConcentration : public FixPerGrid {
   std::array<int, 3> parse_cells(int narg, char **arg);
   void parse(int narg, char **arg);
   void set_up();
+  void check_wide(int axis);
   void mark_fluid();
   CellGrid *grid_of(int which) override { return which ? &direct->grid : &grid; }
   void renew();
@@ -62,6 +64,7 @@ class FixFlowConcentration : public FixPerGrid {
   void convolve();
   void add_up();
   [[noreturn]] void complain_far(const double *x) const;
+  [[noreturn]] void complain_walled(const double *x, double least) const;
 };
 
 }    // namespace LAMMPS_NS

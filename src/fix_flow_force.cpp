@@ -13,6 +13,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -22,42 +23,6 @@ namespace {
 apf::Vec3 at(const apf::Lanes (&a)[3], int l)
 {
   return {a[0][l], a[1][l], a[2][l]};
-}
-
-// rows of a per-atom array, to arrays of components and back
-void take(double **from, const int *atoms, int n, apf::Lanes (&to)[3])
-{
-  for (int l = 0; l < n; l++) {
-    const double *row = from[atoms[l]];
-    for (int c = 0; c < 3; c++) to[c][l] = row[c];
-  }
-}
-void add(const apf::Lanes (&from)[3], const int *atoms, int n, double **to)
-{
-  for (int l = 0; l < n; l++) {
-    double *row = to[atoms[l]];
-    for (int c = 0; c < 3; c++) row[c] += from[c][l];
-  }
-}
-void put(const apf::Lanes (&from)[3], const int *atoms, int n, double **to, int column)
-{
-  for (int l = 0; l < n; l++) {
-    double *row = to[atoms[l]] + column;
-    for (int c = 0; c < 3; c++) row[c] = from[c][l];
-  }
-}
-
-// in eight parts, so that additions need not wait for each other
-double sum(const apf::Lanes &a, int n)
-{
-  constexpr int parts = 8;
-  double part[parts] = {}, total = 0.0;
-  const int whole = n - n % parts;
-  for (int l = 0; l < whole; l += parts)
-    for (int k = 0; k < parts; k++) part[k] += a[l + k];
-  for (int k = 0; k < parts; k++) total += part[k];
-  for (int l = whole; l < n; l++) total += a[l];
-  return total;
 }
 
 void add(double *a, const apf::Vec3 &b)
@@ -72,8 +37,8 @@ void add(double *a, const apf::Vec3 &b)
 /* ---------------------------------------------------------------------- */
 
 FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
-    FixPerGrid(lmp, narg, arg), block(std::make_unique<Block>()),
-    fluid_forces(apf::fluid_forces()), total{}, total_all{}
+    FixPerGrid(lmp, narg, arg), block(std::make_unique<Block>()), fluid_forces(apf::fluid_forces()),
+    rows(apf::lane_rows()), parts{}, total_all{}
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix flow/force", error);
   if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
@@ -89,6 +54,7 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
                                           model.brownian};
   for (int k = 0; k < apf::n_fluid_forces; k++)
     if (acts[k]) columns.push_back(k);
+  choose_outputs();
 
   dynamic_group_allow = 1;
   vector_flag = 1;
@@ -96,7 +62,7 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
   global_freq = 1;
   extvector = 1;
   peratom_flag = 1;
-  size_peratom_cols = 6 + 3 * static_cast<int>(columns.size());
+  size_peratom_cols = static_cast<int>(outputs.size());
   peratom_freq = 1;
   virial_global_flag = virial_peratom_flag = 1;
   pergrid_flag = feedback ? 1 : 0;
@@ -104,6 +70,19 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
   respa_level_support = 1;
 
   grow_output();
+}
+
+/* ----------------------------------------------------------------------
+   what the columns of the per-atom array are
+------------------------------------------------------------------------- */
+
+void FixFlowForce::choose_outputs()
+{
+  const auto &of = block->forces;
+  for (const auto &drag : of.force[apf::DRAG]) outputs.push_back(&drag);
+  for (const auto &torque : of.torque) outputs.push_back(&torque);
+  for (const int k : columns)
+    for (const auto &force : of.force[k]) outputs.push_back(&force);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -189,7 +168,7 @@ void FixFlowForce::post_force(int vflag)
   if (sub_stepper) relaxations.assign(atom->nlocal, Relaxation());
   model.step = update->ntimestep;
   model.step_length = update->dt;
-  std::fill_n(total, n_sums, 0.0);
+  std::fill_n(parts[0], n_sums * apf::sum_parts, 0.0);
   summed = false;
   for (int i = 0; i < atom->nlocal; i++)
     if (!(atom->mask[i] & groupbit)) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
@@ -209,7 +188,9 @@ void FixFlowForce::post_force(int vflag)
   if (!feedback) return;
   feedback->end();
   const apf::Vec3 got = feedback->sum();
-  add(total + n_sums - 3, got);
+  parts[n_sums - 3][0] = got.x;
+  parts[n_sums - 2][0] = got.y;
+  parts[n_sums - 1][0] = got.z;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -248,27 +229,41 @@ double FixFlowForce::step() const
 }
 
 /* ----------------------------------------------------------------------
-   next particles of the group from local atom first on; return the first atom after them
+   next atoms of the group from local atom first on; return the first atom after them
 ------------------------------------------------------------------------- */
+
+int FixFlowForce::choose(int first)
+{
+  int *const atoms = block->atom;
+  int n = 0, i = first;
+  for (const int nlocal = atom->nlocal; i < nlocal && n < apf::block_width; i++) {
+    atoms[n] = i;
+    n += (atom->mask[i] & groupbit) != 0;
+  }
+  block->forces.n = block->points.n = n;
+  block->together = n > 0 && atoms[n - 1] - atoms[0] == n - 1;
+  return i;
+}
+
+/* ---------------------------------------------------------------------- */
 
 int FixFlowForce::gather(int first, double whole, double sub)
 {
+  const int end = choose(first), n = block->forces.n, *const atoms = block->atom;
   auto &to = block->forces;
-  int *const atoms = block->atom;
-  int n = 0, i = first;
-  for (const int nlocal = atom->nlocal; i < nlocal && n < apf::block_width; i++)
-    if (atom->mask[i] & groupbit) atoms[n++] = i;
-  to.n = block->points.n = n;
   for (int l = 0; l < n; l++) {
     to.diameter[l] = 2.0 * atom->radius[atoms[l]];
     to.mass[l] = atom->rmass[atoms[l]];
-    to.step[l] = sub_stepper && sub_stepper->step_of(atoms[l]) < update->dt ? sub : whole;
   }
-  take(atom->x, atoms, n, block->points.x);
-  take(atom->v, atoms, n, to.velocity);
-  take(atom->f, atoms, n, to.other_force);
-  if (model.torque || model.magnus) take(atom->omega, atoms, n, to.spin);
-  if (model.torque) take(atom->torque, atoms, n, to.other_torque);
+  std::fill_n(to.step, n, whole);
+  if (sub_stepper)
+    for (int l = 0; l < n; l++)
+      if (sub_stepper->step_of(atoms[l]) < update->dt) to.step[l] = sub;
+  take_rows(atom->x, block->points.x);
+  take_rows(atom->v, to.velocity);
+  take_rows(atom->f, to.other_force);
+  if (model.torque || model.magnus) take_rows(atom->omega, to.spin);
+  if (model.torque) take_rows(atom->torque, to.other_torque);
   std::fill(to.diameter + n, to.diameter + apf::block_width, 1.0);
   std::fill(to.mass + n, to.mass + apf::block_width, 1.0);
   if (model.brownian)
@@ -283,7 +278,7 @@ int FixFlowForce::gather(int first, double whole, double sub)
     for (auto *out_of_plane : {&to.velocity[2], &to.other_force[2], &to.spin[0], &to.spin[1],
                                &to.other_torque[0], &to.other_torque[1]})
       std::fill_n(*out_of_plane, n, 0.0);
-  return i;
+  return end;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -291,18 +286,43 @@ int FixFlowForce::gather(int first, double whole, double sub)
 void FixFlowForce::scatter()
 {
   const auto &from = block->forces;
-  const int *const atoms = block->atom;
-  add(from.given, atoms, from.n, atom->f);
-  put(from.force[apf::DRAG], atoms, from.n, array_atom, 0);
-  if (model.torque) {
-    add(from.torque, atoms, from.n, atom->torque);
-    put(from.torque, atoms, from.n, array_atom, 3);
-  }
-  int column = 6;
-  for (const int k : columns) {
-    put(from.force[k], atoms, from.n, array_atom, column);
-    column += 3;
-  }
+  add_rows(from.given, atom->f);
+  if (model.torque) add_rows(from.torque, atom->torque);
+  put_rows(array_atom);
+}
+
+/* ----------------------------------------------------------------------
+   rows of a per-atom array, to arrays of components and back
+------------------------------------------------------------------------- */
+
+void FixFlowForce::take_rows(double **from, apf::Lanes (&to)[3]) const
+{
+  const int n = block->forces.n, *atoms = block->atom;
+  if (block->together)
+    rows.take(from[atoms[0]], n, to);
+  else
+    for (int l = 0; l < n; l++)
+      for (int c = 0; c < 3; c++) to[c][l] = from[atoms[l]][c];
+}
+
+void FixFlowForce::add_rows(const apf::Lanes (&from)[3], double **to) const
+{
+  const int n = block->forces.n, *atoms = block->atom;
+  if (block->together)
+    rows.add(from, n, to[atoms[0]]);
+  else
+    for (int l = 0; l < n; l++)
+      for (int c = 0; c < 3; c++) to[atoms[l]][c] += from[c][l];
+}
+
+void FixFlowForce::put_rows(double **to) const
+{
+  const int n = block->forces.n, *atoms = block->atom;
+  if (block->together)
+    rows.put(outputs.data(), size_peratom_cols, n, to[atoms[0]]);
+  else
+    for (int l = 0; l < n; l++)
+      for (int c = 0; c < size_peratom_cols; c++) to[atoms[l]][c] = (*outputs[c])[l];
 }
 
 /* ---------------------------------------------------------------------- */
@@ -310,12 +330,12 @@ void FixFlowForce::scatter()
 void FixFlowForce::add_up()
 {
   const int n = block->forces.n;
-  auto add_to = [n](double *to, const apf::Lanes(&a)[3]) {
-    for (int c = 0; c < 3; c++) to[c] += sum(a[c], n);
+  auto add_to = [this, n](int first, const apf::Lanes(&a)[3]) {
+    for (int c = 0; c < 3; c++) rows.add_up(a[c], n, parts[first + c]);
   };
-  add_to(total, block->forces.force[apf::DRAG]);
-  for (const int k : columns) add_to(total + 3 * k, block->forces.force[k]);
-  add_to(total + 3 * apf::n_fluid_forces, block->forces.given);
+  add_to(0, block->forces.force[apf::DRAG]);
+  for (const int k : columns) add_to(3 * k, block->forces.force[k]);
+  add_to(3 * apf::n_fluid_forces, block->forces.given);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -398,7 +418,10 @@ double FixFlowForce::share(int i) const
 double FixFlowForce::compute_vector(int n)
 {
   if (!summed) {
-    MPI_Allreduce(total, total_all, n_sums, MPI_DOUBLE, MPI_SUM, world);
+    double mine[n_sums];
+    for (int k = 0; k < n_sums; k++)
+      mine[k] = std::accumulate(parts[k], parts[k] + apf::sum_parts, 0.0);
+    MPI_Allreduce(mine, total_all, n_sums, MPI_DOUBLE, MPI_SUM, world);
     summed = true;
   }
   return total_all[n];

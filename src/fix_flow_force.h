@@ -13,6 +13,7 @@ FixStyle(flow/force,FixFlowForce);
 #include "flow_feedback.h"
 
 #include "flow/fluid_forces.h"
+#include "flow/lane_rows.h"
 #include "timestep/sub_step.h"
 
 #include <functional>
@@ -61,13 +62,16 @@ class FixFlowForce : public FixPerGrid {
 
   // a block of particles on its way through the forces
   struct Block {
-    int atom[apf::block_width];    // their local indices
+    int atom[apf::block_width];    // their local indices, ascending
+    bool together;                 // one after another
     apf::PointBlock points;
     apf::FluidBlock fluid;
     apf::ForceBlock forces;
   };
   std::unique_ptr<Block> block;
   apf::FluidForces fluid_forces;
+  apf::LaneRows rows;
+  std::vector<const apf::Lanes *> outputs;    // what the columns of the per-atom array are
 
   struct Relaxation {    // what relax() adds
     apf::Vec3 a{}, alpha{};
@@ -77,7 +81,7 @@ class FixFlowForce : public FixPerGrid {
 
   // sums over the group: of each force, of all that was added to f, of what the grid got
   static constexpr int n_sums = 3 * (apf::n_fluid_forces + 2);
-  double total[n_sums], total_all[n_sums];
+  double parts[n_sums][apf::sum_parts], total_all[n_sums];    // each in parts
   bool summed = false;
 
   // fix_flow_force_input.cpp
@@ -98,11 +102,16 @@ class FixFlowForce : public FixPerGrid {
   void warn_of_ranges();
 
   CellGrid *grid_of(int) override { return feedback ? &feedback->grid : nullptr; }
+  void choose_outputs();
   void grow_output();
   double step() const;
   void for_blocks(const std::function<void()> &act);
   int gather(int first, double whole, double sub);
+  int choose(int first);
   void scatter();
+  void take_rows(double **from, apf::Lanes (&to)[3]) const;
+  void add_rows(const apf::Lanes (&from)[3], double **to) const;
+  void put_rows(double **to) const;
   void add_up();
   void keep_relaxation();
   void react();

@@ -1,7 +1,9 @@
-// The builds of the contact kernel, of the grid's sampler and of the forces of the fluid.
+// The builds of the contact kernel, of the grid's sampler, of the forces of the fluid and of copies
+// between rows and lanes.
 
 #include "../flow/fluid_forces.h"
 #include "../flow/grid_flow.h"
+#include "../flow/lane_rows.h"
 #include "contact_kernel.h"
 #include "instruction_set.h"
 
@@ -12,22 +14,23 @@ namespace apf {
     ContactKernel contact_kernel(const KernelChoice &choice);                     \
     bool sample_grid(const GridView &, const PointBlock &, Detail, FluidBlock &); \
     void fluid_forces(const FluidModel &, const FluidBlock &, ForceBlock &);      \
+    extern const LaneRows lane_row_functions;                                     \
   }
 APF_DECLARE(baseline)
+// clang-format off
 #ifdef APF_X86
 APF_DECLARE(avx2)
 APF_DECLARE(avx512)
+#define APF_BUILDS(what) \
+  {"baseline", baseline::what}, {"avx2", avx2::what}, {"avx512", avx512::what}
+#else
+#define APF_BUILDS(what) {"baseline", baseline::what}
 #endif
+// clang-format on
 
 const std::vector<KernelBuild> &kernel_builds()
 {
-  static const auto builds = runnable<KernelBuild>({
-      {"baseline", baseline::contact_kernel},
-#ifdef APF_X86
-      {"avx2", avx2::contact_kernel},
-      {"avx512", avx512::contact_kernel},
-#endif
-  });
+  static const auto builds = runnable<KernelBuild>({APF_BUILDS(contact_kernel)});
   return builds;
 }
 
@@ -39,13 +42,7 @@ ContactKernel contact_kernel(const KernelChoice &choice)
 
 const std::vector<GridSamplerBuild> &grid_sampler_builds()
 {
-  static const auto builds = runnable<GridSamplerBuild>({
-      {"baseline", baseline::sample_grid},
-#ifdef APF_X86
-      {"avx2", avx2::sample_grid},
-      {"avx512", avx512::sample_grid},
-#endif
-  });
+  static const auto builds = runnable<GridSamplerBuild>({APF_BUILDS(sample_grid)});
   return builds;
 }
 
@@ -57,13 +54,7 @@ GridSampler grid_sampler()
 
 const std::vector<FluidForcesBuild> &fluid_forces_builds()
 {
-  static const auto builds = runnable<FluidForcesBuild>({
-      {"baseline", baseline::fluid_forces},
-#ifdef APF_X86
-      {"avx2", avx2::fluid_forces},
-      {"avx512", avx512::fluid_forces},
-#endif
-  });
+  static const auto builds = runnable<FluidForcesBuild>({APF_BUILDS(fluid_forces)});
   return builds;
 }
 
@@ -71,6 +62,18 @@ FluidForces fluid_forces()
 {
   static const FluidForcesBuild &build = chosen(fluid_forces_builds());
   return build.forces;
+}
+
+const std::vector<LaneRowsBuild> &lane_rows_builds()
+{
+  static const auto builds = runnable<LaneRowsBuild>({APF_BUILDS(lane_row_functions)});
+  return builds;
+}
+
+LaneRows lane_rows()
+{
+  static const LaneRowsBuild &build = chosen(lane_rows_builds());
+  return build.functions;
 }
 
 }    // namespace apf

@@ -1,6 +1,7 @@
 #include "vtk_input.h"
 
 #include "cell_to_point.h"
+#include "plot3d_text.h"
 
 #include <vtkAppendFilter.h>
 #include <vtkCGNSReader.h>
@@ -25,14 +26,16 @@
 #include <vtkSmartPointer.h>
 #include <vtkStaticPointLocator.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStructuredGrid.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLGenericDataObjectReader.h>
+
+#include <zlib.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -89,12 +92,48 @@ namespace {
     return text.substr(begin, at - begin - 1);
   }
 
-  std::string contents(const fs::path &path)
+  // of a file, or of the one that gzip made of it; empty if there is neither
+  std::string contents(const std::string &path)
   {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
+    std::string text;
+    gzFile in = gzopen(fs::exists(path) ? path.c_str() : (path + ".gz").c_str(), "rb");
+    if (!in) return text;
+    char part[4096];
+    for (int n; (n = gzread(in, part, sizeof(part))) > 0;) text.append(part, n);
+    gzclose(in);
+    return text;
+  }
+
+  // 3 if there are cells in space
+  int dimension_of(vtkDataSet *set)
+  {
+    int dim = 0;
+    for (vtkIdType c = 0; c < set->GetNumberOfCells() && dim < 3; c++)
+      dim = std::max(dim, set->GetCell(c)->GetCellDimension());
+    return dim;
+  }
+
+  vtkSmartPointer<vtkAlgorithm> plot3d(const std::string &path, const std::string &solution)
+  {
+    if (solution.empty()) stop(path, "a PLOT3D grid needs its solution: --solution FILE.q");
+    if (!fs::exists(solution)) stop(solution, "does not exist");
+    auto reader = vtkSmartPointer<vtkMultiBlockPLOT3DReader>::New();
+    reader->SetXYZFileName(path.c_str());
+    reader->SetQFileName(solution.c_str());
+    const Plot3dText kind(path);
+    reader->SetAutoDetectFormat(!kind.text);
+    if (kind.text) {
+      if (!kind.known)
+        stop(path, "is text, but holds more or fewer numbers than a PLOT3D grid of its size");
+      reader->BinaryFileOff();
+      reader->DoublePrecisionOn();
+      reader->SetMultiGrid(kind.multiple);
+      reader->SetTwoDimensionalGeometry(kind.planar);
+      reader->SetIBlanking(kind.blanked);
+    }
+    reader->SetVectorFunctionNumber(200);    // velocity
+    reader->AddFunction(110);                // pressure
+    return reader;
   }
 
   // Coordinates in single precision are taken for the decimal numbers that they stand for: 0.006 is
@@ -151,15 +190,7 @@ VtkInput::VtkInput(const std::string &path, const std::vector<std::string> &wall
     reader->EnableAllCellArrays();
     vtk->reader = reader;
   } else if (end == ".xyz" || end == ".x" || end == ".p3d") {
-    if (solution.empty()) stop(path, "a PLOT3D grid needs its solution: --solution FILE.q");
-    if (!fs::exists(solution)) stop(solution, "does not exist");
-    auto reader = vtkSmartPointer<vtkMultiBlockPLOT3DReader>::New();
-    reader->SetXYZFileName(path.c_str());
-    reader->SetQFileName(solution.c_str());
-    reader->AutoDetectFormatOn();
-    reader->SetVectorFunctionNumber(200);    // velocity
-    reader->AddFunction(110);                // pressure
-    vtk->reader = reader;
+    vtk->reader = plot3d(path, solution);
   } else if (end == ".vtk") {
     auto reader = vtkSmartPointer<vtkGenericDataObjectReader>::New();
     reader->SetFileName(path.c_str());
@@ -198,7 +229,7 @@ void VtkInput::read(int step)
   auto *data = vtk->reader->GetOutputDataObject(0);
   vtkNew<vtkAppendFilter> append;
   append->MergePointsOn();
-  int pieces = 0;
+  std::vector<vtkDataSet *> sets;
   const auto patches_known = !vtk->patches.empty();
   size_t patch = 0;
   if (auto *blocks = vtkMultiBlockDataSet::SafeDownCast(data)) {
@@ -217,14 +248,23 @@ void VtkInput::read(int step)
           vtk->patches[patch++].faces = surface;
         continue;
       }
-      append->AddInputData(set);
-      pieces++;
+      sets.push_back(set);
     }
-  } else if (auto *set = vtkDataSet::SafeDownCast(data)) {
-    append->AddInputData(set);
-    pieces++;
+  } else if (auto *set = vtkDataSet::SafeDownCast(data))
+    sets.push_back(set);
+  if (sets.empty()) stop(file, "cannot be read, or holds no mesh");
+
+  // surfaces beside a mesh in space are no part of it, and need not have its fields
+  std::vector<int> dimensions;
+  for (auto *set : sets) dimensions.push_back(dimension_of(set));
+  const int dim = *std::max_element(dimensions.begin(), dimensions.end());
+  for (size_t k = 0; k < sets.size(); k++) {
+    if (dimensions[k] < dim) continue;
+    auto *block = vtkStructuredGrid::SafeDownCast(sets[k]);
+    if (block && (block->HasAnyBlankPoints() || block->HasAnyBlankCells()))
+      stop(file, "has blanked points: grids that overlap cannot be mapped");
+    append->AddInputData(sets[k]);
   }
-  if (!pieces) stop(file, "cannot be read, or holds no mesh");
   append->Update();
   vtk->grid = append->GetOutput();
   if (vtk->grid->GetNumberOfCells() == 0) stop(file, "cannot be read, or holds no cells");

@@ -46,6 +46,7 @@ std::vector<double> dumped(Simulation &sim, const std::string &what, const std::
 {
   sim.run("dump grid all grid 1 " + file + " " + what +
           "\ndump_modify grid sort id format float %.17g\nrun 0\nundump grid\n");
+  MPI_Barrier(sim.lammps()->world);    // one rank has written it
   std::vector<double> values;
   FILE *in = fopen(file.c_str(), "r");
   char line[256];
@@ -55,6 +56,7 @@ std::vector<double> dumped(Simulation &sim, const std::string &what, const std::
     if (std::string(line).find("ITEM: GRID CELLS") == 0) data = true;
   }
   if (in) fclose(in);
+  MPI_Barrier(sim.lammps()->world);
   return values;
 }
 
@@ -130,7 +132,6 @@ TEST(RanksConcentration, walls_return_what_would_fall_outside)
   ASSERT_GT(sim.value("atoms"), 50.0);
   EXPECT_NEAR(sim.value("f_c[1]") / volume(sim), 1.0, 1e-12);
   const auto c = dumped(sim, "f_c:grid:data", scratch_file("walls"));
-  MPI_Barrier(MPI_COMM_WORLD);
   int outside = 0;
   for (size_t k = 0; k < c.size(); k++) {
     const double y = (k / 20 % 16 + 0.5) * 0.5 - 4.0, z = (k / 320 + 0.5) * 0.5 - 3.0;
@@ -167,9 +168,7 @@ TEST(RanksConcentration, does_not_depend_on_ranks)
 static std::array<double, 2> compare(Simulation &sim, const std::string &a, const std::string &b)
 {
   const auto one = dumped(sim, "f_" + a + ":grid:data", scratch_file(a));
-  MPI_Barrier(MPI_COMM_WORLD);
   const auto two = dumped(sim, "f_" + b + ":grid:data", scratch_file(b));
-  MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_EQ(one.size(), two.size());
   EXPECT_GT(one.size(), 0u);
   double worst = 0.0, peak = 0.0;
@@ -183,6 +182,8 @@ static std::array<double, 2> compare(Simulation &sim, const std::string &a, cons
   }
   return {worst, peak};
 }
+
+#ifdef APF_FFTW
 
 // by both methods, which differ by a little, but do differ
 static void expect_alike(Simulation &sim, const std::string &what)
@@ -272,6 +273,108 @@ TEST(Concentration, the_cheaper_method_is_chosen)
             " cloud 0.75\nfix other all " + grid + " cloud 0.75 method " + expected + "\nrun 0\n");
     EXPECT_EQ(compare(sim, "auto", "other")[0], 0.0) << expected;
   }
+}
+
+TEST(RanksConcentration, clouds_wider_than_the_box_meet_their_images)
+{
+  // R = 3 in a periodic length of 10: along an axis the mean over a cell is a sum over images
+  const double R = 3.0, h = 0.5, V = pi / 6.0 * 0.064, at[3] = {2.3, 9.9, 4.75};
+  const auto mean = [&](double a) {
+    double sum = 0.0;
+    for (int k = -3; k <= 3; k++)
+      sum += 0.5 * (std::erf((a + h + 10.0 * k) / R) - std::erf((a + 10.0 * k) / R)) / h;
+    return sum;
+  };
+  for (const std::string method : {"fft", "auto"}) {
+    Simulation sim;
+    sim.run(one("2.3 9.9 4.75") + "fix c all flow/concentration 20 20 20 cloud 3 method " + method);
+    const auto c = dumped(sim, "f_c:grid:data", scratch_file("wide"));
+    ASSERT_EQ(c.size(), 8000u);
+    double largest = 0.0;
+    for (double value : c) largest = std::max(largest, value);
+    for (int k = 0; k < 8000; k++) {
+      const double exact =
+          V * mean(k % 20 * h - at[0]) * mean(k / 20 % 20 * h - at[1]) * mean(k / 400 * h - at[2]);
+      EXPECT_NEAR(c[k], exact, 1e-6 * largest) << k;
+    }
+    EXPECT_NEAR(sim.value("f_c[1]") / V, 1.0, 1e-12);
+    if (sim.lammps()->comm->me == 0) std::filesystem::remove(scratch_file("wide"));
+  }
+}
+
+TEST(Concentration, wide_clouds_behind_walls_are_refused)
+{
+  Simulation sim;
+  std::string scene = one("0.2 0.2 0.2", "f f p");
+  const std::string none = "pair_style zero 0.5 nocoeff\npair_coeff * *";
+  scene.replace(scene.find(none), none.size(),
+                "pair_style granular/adhesive\npair_coeff * * jkr 1e4 0.3 0");
+  const auto error = sim.error_of(scene +
+                                  "fix gap all wall/levelset plane x NULL 0.4 jkr 1e4 0.3 0\n"
+                                  "fix c all flow/concentration 20 20 20 cloud 3\nrun 0\n");
+  EXPECT_NE(error.find("less than 0.1 of the cloud of a particle at 0.2 0.2 0.2"),
+            std::string::npos)
+      << error;
+}
+
+TEST(RanksConcentration, convolution_gives_no_negative_cells)
+{
+  Simulation sim;
+  sim.run(crowd("p f p", 3) + "fix c all flow/concentration 40 30 24 cloud 0.75 method fft\n");
+  const auto c = dumped(sim, "f_c:grid:data", scratch_file("sign"));
+  ASSERT_EQ(c.size(), 40u * 30 * 24);
+  int empty = 0;
+  for (double value : c) {
+    EXPECT_GE(value, 0.0);
+    empty += value == 0.0;
+  }
+  EXPECT_GT(empty, 1000) << "there were some";
+  EXPECT_NEAR(sim.value("f_c[1]") / volume(sim), 1.0, 1e-12);
+  if (sim.lammps()->comm->me == 0) std::filesystem::remove(scratch_file("sign"));
+}
+
+#else
+
+TEST(Concentration, without_fftw_clouds_are_added_up)
+{
+  const std::string grid = "flow/concentration 40 32 24 cloud 0.75 method ";
+  Simulation sim;
+  sim.run(crowd("p p p", 1000) + "fix auto all " + grid + "auto\nfix other all " + grid +
+          "direct\nrun 0\n");
+  EXPECT_EQ(compare(sim, "auto", "other")[0], 0.0);
+  EXPECT_NE(sim.error_of("fix c all " + grid + "fft")
+                .find("method fft needs APF built with FFTW for MPI"),
+            std::string::npos);
+  EXPECT_NE(sim.error_of("fix c all flow/concentration 20 20 20 cloud 3").find("must be <="),
+            std::string::npos);
+}
+
+#endif
+
+TEST(Concentration, a_restart_goes_on_as_the_run_would_have)
+{
+  const std::string file = scratch_file("restart");
+  const std::string fixes = "fix c all flow/concentration 20 16 12 cloud 0.5 every 5\n"
+                            "fix air all flow/field uniform 0.1 0 0 density 1 viscosity 1\n"
+                            "fix drag all flow/force air drag difelice concentration c\n";
+  std::vector<double> straight;
+  double largest = 0.0;
+  {
+    Simulation sim;
+    sim.run(crowd("p f p") + fixes + "velocity all create 1.0 99 loop geom\nrun 20\n" +
+            "write_restart " + file + "\nrun 17\n");
+    straight = gather(sim, "x");
+    largest = sim.value("f_c[2]");
+  }
+  Simulation sim;
+  sim.run("read_restart " + file +
+          "\ncomm_modify vel yes\npair_style zero 0.5 nocoeff\npair_coeff * *\n"
+          "fix move all nve/sphere\n" +
+          fixes + "run 17\n");
+  EXPECT_LT(difference(gather(sim, "x"), straight), 1e-12);
+  EXPECT_NEAR(sim.value("f_c[2]") / largest, 1.0, 1e-12);
+  EXPECT_GT(largest, 0.01);
+  std::filesystem::remove(file);
 }
 
 TEST(Concentration, in_the_plane_a_particle_counts_in_a_slab_of_its_own_thickness)
@@ -367,8 +470,11 @@ TEST(ConcentrationErrors, name_what_is_wrong)
       {"fix c all flow/concentration 9 9 9 every 2", "requires keyword cloud"},
       {"fix c all flow/concentration 9 9 9 blob 2", "must be cloud, every or method, got blob"},
       {"fix c all flow/concentration 9 9 9 method dft", "must be auto, direct or fft, got dft"},
+      {"fix c all flow/concentration 25 25 25 cloud 2 method direct", "cloud must be <= 1.25"},
+#ifdef APF_FFTW
       {"fix c all flow/concentration 25 9 9 cloud 1 method fft",
        "of at least 2.6 widths of a cell"},
+#endif
       {"fix d all flow/force air drag difelice concentration q", "fix q does not exist"},
       {"fix d all flow/force air drag difelice concentration air", "got flow/field"},
       {"fix d all flow/force air drag stokes feedback yes", "takes the grid of fix"},

@@ -3,6 +3,7 @@
 // Einstein's diffusion, equipartition, balance of momentum, collision steps.
 
 #include "comm.h"
+#include "fix.h"
 #include "scenes.h"
 
 #include <array>
@@ -170,6 +171,40 @@ TEST(FlowForces, columns_are_the_forces_that_the_script_names)
         << "the vector has their sums, in the same order";
   EXPECT_NEAR(sim.value("f_drag[22]"), sum, 1e-13);
   EXPECT_NE(sim.value("f_drag[19]"), 0.0);
+}
+
+TEST(FlowForces, groups_of_scattered_atoms_get_what_all_together_get)
+{
+  // every second atom, so that a block is no rows one after another
+  const std::string scene =
+      "units lj\natom_style sphere\natom_modify map array\n"
+      "region box block 0 10 0 10 0 10\ncreate_box 1 box\ncreate_atoms 1 random 150 77 box\n"
+      "reset_atoms id sort yes\nset group all diameter 0.4 density 2\nset atom 1*70 diameter 0.3\n"
+      "pair_style zero 1.0 nocoeff\npair_coeff * *\nfix move all nve/sphere\n"
+      "velocity all create 1.0 99 loop geom\nset group all omega 1 2 3\n"
+      "fix air all flow/field shear y x 0.5 0 density 0.5 viscosity 0.3\n"
+      "variable odd atom id%2\ngroup odd variable odd\ngroup even subtract all odd\n";
+  const std::string forces =
+      " flow/force air drag schiller torque yes lift saffman magnus yes gravity 0 0 -1\n";
+  std::vector<double> together[3];
+  for (const bool scattered : {false, true}) {
+    Simulation sim;
+    sim.run(scene + (scattered ? "fix drag odd" : "fix drag all") + forces +
+            (scattered ? "fix rest even" + forces : "") + "run 25\n");
+    for (int k = 0; k < 3; k++) {
+      const auto values = gather(sim, k == 0 ? "x" : k == 1 ? "v" : "omega");
+      if (scattered)
+        EXPECT_EQ(values, together[k]) << k;
+      else
+        together[k] = values;
+    }
+    const auto *fix = sim.lammps()->modify->get_fix_by_id("drag");
+    for (int i = 0; i < 150; i++) {
+      const double *row = fix->array_atom[i];
+      const bool acts = !scattered || sim.lammps()->atom->tag[i] % 2 == 1;
+      for (int column : {0, 5, 8, 10, 14}) EXPECT_EQ(row[column] != 0.0, acts) << i << column;
+    }
+  }
 }
 
 // ---------------------------------------------------------------------- Brownian motion

@@ -25,6 +25,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -230,12 +231,172 @@ TEST(Program, linear_fields_of_cells_are_exact)
   EXPECT_EQ(expect_linear(folder / "cells.vtkhdf"), 21 * 21 * 21);
 }
 
+namespace {
+
+// by write_blocks.py, which knows neither VTK nor CGNS's library: the linear fields on two blocks
+void write_blocks(const std::string &words)
+{
+  ASSERT_EQ(std::system((std::string(FLOWGRID_BLOCKS) + " " + words).c_str()), 0)
+      << "needs Debian's python3-h5py";
+}
+
+}    // namespace
+
+TEST(Program, plot3d_of_several_blocks)
+{
+  for (const std::string how : {"ascii", "binary", "fortran"}) {
+    const Folder folder;
+    const std::string grid = folder / "g.xyz", solution = folder / "g.q", out = folder / "g.vtkhdf";
+    write_blocks("plot3d " + grid + " " + solution + " " + how);
+    const auto run =
+        flowgrid_with(grid + " " + out + " --solution " + solution + " --spacing 0.05");
+    EXPECT_EQ(run.status, 0) << how << run.text;
+    EXPECT_EQ(expect_linear(out), 41 * 21 * 21) << how;
+  }
+}
+
+TEST(Program, plot3d_of_one_block_in_the_plane)
+{
+  // density 2, velocity (1 + y, -x), gamma 1.4
+  const Folder folder;
+  const std::string grid = folder / "g.x", solution = folder / "g.q", out = folder / "g.vtkhdf";
+  std::ofstream(grid) << "3 2\n0 0.5 1 0 0.5 1\n0 0 0 1 1 1\n";
+  std::ofstream(solution) << "3 2\n0.5 0 1 0\n2 2 2 2 2 2\n2 2 2 4 4 4\n0 -1 -2 0 -1 -2\n"
+                             "9 9 9 9 9 9\n";
+  const auto run = flowgrid_with(grid + " " + out + " --solution " + solution + " --spacing 0.25");
+  ASSERT_EQ(run.status, 0) << run.text;
+  const apf::VtkhdfFile hdf(out);
+  const auto u = hdf.read("velocity", 3, 0, 1);
+  ASSERT_EQ(hdf.grid().n[0], 5);
+  for (int j = 0; j < 5; j++)
+    for (int i = 0; i < 5; i++) {
+      EXPECT_NEAR(u[3 * (5 * j + i)], 1.0 + 0.25 * j, 1e-6);
+      EXPECT_NEAR(u[3 * (5 * j + i) + 1], -0.25 * i, 1e-6);
+    }
+}
+
+TEST(Program, plot3d_that_cannot_be_mapped_is_refused)
+{
+  const Folder folder;
+  std::ofstream(folder / "g.q") << "3 2\n0.5 0 1 0\n2 2 2 2 2 2\n2 2 2 4 4 4\n0 -1 -2 0 -1 -2\n"
+                                   "9 9 9 9 9 9\n";
+  const std::string rest = " " + (folder / "out.vtkhdf") + " --spacing 0.25";
+  const std::string q = " --solution " + (folder / "g.q");
+  std::ofstream(folder / "short.x") << "3 2\n0 0.5 1 0 0.5 1\n0 0 0 1 1\n";
+  std::ofstream(folder / "blank.x") << "3 2\n0 0.5 1 0 0.5 1\n0 0 0 1 1 1\n1 1 0 1 1 1\n";
+  const struct {
+    std::string words, message;
+  } table[] = {
+      {(folder / "short.x") + rest + q, "holds more or fewer numbers than a PLOT3D grid"},
+      {(folder / "blank.x") + rest + q, "has blanked points"},
+      {(folder / "blank.x") + rest, "a PLOT3D grid needs its solution"},
+      {(folder / "blank.x") + rest + " --solution none.q", "none.q: does not exist"},
+  };
+  for (const auto &row : table) {
+    const auto run = flowgrid_with(row.words);
+    EXPECT_EQ(run.status, 1) << row.words;
+    EXPECT_NE(run.text.find(row.message), std::string::npos) << row.words << "\n" << run.text;
+  }
+}
+
+TEST(Program, cgns_with_values_at_points_and_in_cells)
+{
+  for (const std::string where : {"Vertex", "CellCenter"}) {
+    const Folder folder;
+    const std::string file = folder / "g.cgns", out = folder / "g.vtkhdf";
+    write_blocks("cgns " + file + " " + where);
+    const auto run = flowgrid_with(file + " " + out + " --spacing 0.05");
+    EXPECT_EQ(run.status, 0) << where << run.text;
+    EXPECT_EQ(expect_linear(out), 41 * 21 * 21) << where;
+  }
+}
+
+TEST(Program, surfaces_beside_a_mesh_in_space_are_left_out)
+{
+  // one without the fields, one with other ones
+  const Folder folder;
+  vtkNew<vtkImageData> bare, other;
+  for (auto *surface : {bare.Get(), other.Get()}) {
+    surface->SetDimensions(3, 3, 1);
+    surface->SetSpacing(0.5, 0.5, 1.0);
+  }
+  set_fields(other.Get());
+  other->GetPointData()->GetArray("U")->Fill(77.0);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, bare);
+  blocks->SetBlock(1, block(4, 0.0));
+  blocks->SetBlock(2, other);
+  vtkNew<vtkXMLMultiBlockDataWriter> writer;
+  writer->SetFileName((folder / "mixed.vtm").c_str());
+  writer->SetInputData(blocks);
+  writer->Write();
+  const auto run =
+      flowgrid_with((folder / "mixed.vtm") + " " + (folder / "mixed.vtkhdf") + " --spacing 0.05");
+  EXPECT_EQ(run.status, 0) << run.text;
+  EXPECT_EQ(expect_linear(folder / "mixed.vtkhdf"), 21 * 21 * 21);
+}
+
+namespace {
+
+const std::string poiseuille = std::string(FLOWGRID_DATA) + "/poiseuille";
+
+// the velocity on 81 x 21 nodes of a case like that
+std::vector<double> velocity_of_case(const std::string &folder, const std::string &out,
+                                     const std::string &more = "")
+{
+  const auto run = flowgrid_with(folder + " " + out + " --spacing 0.05 --planar 0.05" + more);
+  EXPECT_EQ(run.status, 0) << run.text;
+  EXPECT_NE(run.text.find("68 points"), std::string::npos) << "walls are known\n" << run.text;
+  return run.status ? std::vector<double>() : apf::VtkhdfFile(out).read("velocity", 3, 0, 1);
+}
+
+}    // namespace
+
+TEST(Program, binary_and_compressed_cases)
+{
+  // data/binary: the numbers of data/poiseuille, as foamFormatConvert writes them
+  const Folder folder;
+  const auto text = velocity_of_case(poiseuille, folder / "text.vtkhdf");
+  const auto binary =
+      velocity_of_case(std::string(FLOWGRID_DATA) + "/binary", folder / "binary.vtkhdf");
+  fs::copy(poiseuille, folder / "zipped", fs::copy_options::recursive);
+  ASSERT_EQ(
+      std::system(("gzip -r " + (folder / "zipped/4") + " " + (folder / "zipped/constant/polyMesh"))
+                      .c_str()),
+      0);
+  const auto zipped = velocity_of_case(folder / "zipped", folder / "zipped.vtkhdf");
+  EXPECT_EQ(zipped, text);
+  ASSERT_EQ(binary.size(), text.size());
+  for (size_t k = 0; k < text.size(); k++) EXPECT_NEAR(binary[k], text[k], 1e-12);
+}
+
+TEST(Program, inlet_without_gradient_has_the_values_of_cells)
+{
+  // as where pressure drives the flow; the flow in the first cells is still nearly uniform
+  const Folder folder;
+  fs::copy(poiseuille, folder / "case", fs::copy_options::recursive);
+  std::ostringstream text;
+  text << std::ifstream(folder / "case/4/U").rdbuf();
+  std::string fields = text.str();
+  const size_t inlet = fields.find("inlet"), end = fields.find('}', inlet);
+  ASSERT_NE(end, std::string::npos);
+  fields.replace(inlet, end - inlet, "inlet { type zeroGradient; ");
+  std::ofstream(folder / "case/4/U") << fields;
+  const auto u = velocity_of_case(folder / "case", folder / "out.vtkhdf");
+  ASSERT_EQ(u.size(), 3u * 81 * 21);
+  for (int j = 4; j <= 16; j += 4) {
+    const double *first = &u[3 * 81 * j];    // nodes 0.05 apart, cells 0.25 long
+    for (int c = 0; c < 2; c++) EXPECT_NEAR(first[c], first[3 * 2 + c], 0.08) << j;
+    EXPECT_GT(std::fabs(first[0] - 1.0), 1e-3) << "not the inlet that was";
+  }
+}
+
 TEST(Program, poiseuille_flow_of_openfoam)
 {
   // data/poiseuille: icoFoam's result on 16 x 10 cells, 4 long and 1 wide, mean velocity 1
   const Folder folder;
-  const auto run = flowgrid_with(std::string(FLOWGRID_DATA) + "/poiseuille " +
-                                 (folder / "p.vtkhdf") + " --spacing 0.05 --planar 0.05");
+  const auto run =
+      flowgrid_with(poiseuille + " " + (folder / "p.vtkhdf") + " --spacing 0.05 --planar 0.05");
   ASSERT_EQ(run.status, 0) << run.text;
   const apf::VtkhdfFile hdf(folder / "p.vtkhdf");
   const auto &g = hdf.grid();
@@ -261,11 +422,10 @@ TEST(Program, poiseuille_flow_of_openfoam)
 TEST(Program, times_of_a_case_become_a_series)
 {
   const Folder folder;
-  auto run = flowgrid_with(std::string(FLOWGRID_DATA) + "/poiseuille " + (folder / "all.vtkhdf") +
+  auto run = flowgrid_with(poiseuille + " " + (folder / "all.vtkhdf") +
                            " --spacing 0.1 --planar 0.05 --times all");
   ASSERT_EQ(run.status, 0) << run.text;
-  run = flowgrid_with(std::string(FLOWGRID_DATA) + "/poiseuille " + (folder / "last.vtkhdf") +
-                      " --spacing 0.1 --planar 0.05");
+  run = flowgrid_with(poiseuille + " " + (folder / "last.vtkhdf") + " --spacing 0.1 --planar 0.05");
   ASSERT_EQ(run.status, 0) << run.text;
   const apf::VtkhdfFile all(folder / "all.vtkhdf"), last(folder / "last.vtkhdf");
   ASSERT_EQ(all.times().size(), 2u);
@@ -318,8 +478,7 @@ TEST(Program, wrong_input_is_named)
       {(folder / "broken.vtu") + out + "--spacing 1", 1, "cannot be read"},
       {(folder / "nocase") + out + "--spacing 1", 1, "is no OpenFOAM case"},
       {good + " /nowhere/out.vtkhdf --spacing 1", 1, "/nowhere/out.vtkhdf: cannot be created"},
-      {std::string(FLOWGRID_DATA) + "/poiseuille" + out + "--spacing 0.1 --wall roof", 1,
-       "has no patch roof"},
+      {poiseuille + out + "--spacing 0.1 --wall roof", 1, "has no patch roof"},
   };
   for (const auto &row : rows) {
     const auto run = flowgrid_with(row.words);
