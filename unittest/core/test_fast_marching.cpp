@@ -195,8 +195,8 @@ TEST(FastMarching, both_sides_end_at_the_band)
 // scikit-fmm finds the wall by itself; both are compared with the circle
 TEST(FastMarching, beside_scikit_fmm)
 {
-  if (std::system("python3 -c 'import skfmm' 2>/dev/null") != 0)
-    GTEST_SKIP() << "python3-scikit-fmm is not installed";
+  if (std::system("/usr/bin/python3 -c 'import skfmm' 2>/dev/null") != 0)
+    GTEST_SKIP() << "Debian's python3-scikit-fmm is not installed";
   const Lattice grid = cube(2, 100);
   const auto exact = on_nodes(grid, [](const std::array<double, 3> &x) {
     return size(x, 2) - 0.5;
@@ -206,7 +206,7 @@ TEST(FastMarching, beside_scikit_fmm)
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char *>(exact.data()), exact.size() * sizeof(double));
   }
-  const std::string python = "python3 -c 'import numpy, skfmm\n"
+  const std::string python = "/usr/bin/python3 -c 'import numpy, skfmm\n"
                              "phi = numpy.fromfile(\"" +
       file +
       "\").reshape(101, 101)\n"
