@@ -1,9 +1,12 @@
-// flowgrid: maps the flow of a CFD mesh on a Cartesian grid, for fix flow/field file.
+// flowgrid: maps the flow of a CFD mesh on a Cartesian grid, for fix flow/field file, and the
+// distance to walls, for fix wall/levelset file.
 
 #include "mapping.h"
+#include "options.h"
 #include "report.h"
 #include "vtk_input.h"
 #include "vtkhdf_writer.h"
+#include "wall_output.h"
 
 #include <chrono>
 #include <cmath>
@@ -16,116 +19,6 @@
 using namespace flowgrid;
 
 namespace {
-
-const char *const help = R"(usage: flowgrid INPUT OUTPUT.vtkhdf --spacing H [options]
-
-Maps the velocity (and pressure) of a flow computed on any mesh to a Cartesian grid.
-
-INPUT   an OpenFOAM case (folder or .foam file), .vtm .vts .vtu .vti .vtr .vtk, CGNS, or the grid of
-        PLOT3D (.xyz .x .p3d, with --solution)
-OUTPUT  VTKHDF ImageData for fix flow/field file; ParaView opens it
-
-  --spacing H | HX HY HZ     distance of nodes [length of the mesh, after --scale]
-  --bounds X0 X1 Y0 Y1 Z0 Z1 part to be mapped (default: all of the mesh; planes ignore Z)
-  --planar Z                 one layer of nodes at this z, of a mesh in space
-  --velocity NAME            array of the velocity (default U, velocity, Velocity or u)
-  --pressure NAME            array of the pressure (default p, pressure or Pressure, if any)
-  --times last | all | T0:T1 which times of a series (default last); several become a series
-  --scale S                  factor of all lengths of the mesh (default 1), not of velocities
-  --wall NAME                patch of an OpenFOAM case that is a wall besides those of type wall;
-                             may be repeated
-  --solution FILE            PLOT3D's solution file
-  --compress                 deflate the arrays
-  --help                     this text
-
-Exit status: 0 done, 1 input or output cannot be used, 2 wrong words.
-)";
-
-struct Options {
-  std::string input, output, velocity, pressure, times = "last", solution;
-  std::vector<double> spacing, bounds;
-  std::vector<std::string> walls;
-  double planar = NAN, scale = 1.0;
-  bool compress = false;
-};
-
-[[noreturn]] void usage(const std::string &why)
-{
-  fprintf(stderr, "flowgrid: %s\nflowgrid --help shows all options\n", why.c_str());
-  exit(2);
-}
-
-double number(const std::string &option, const char *word)
-{
-  char *end;
-  const double value = strtod(word, &end);
-  if (end == word || *end || !std::isfinite(value)) usage(option + " takes a number, got " + word);
-  return value;
-}
-
-Options parse(int argc, char **argv)
-{
-  Options o;
-  int i = 1;
-  auto value = [&](const std::string &option) {
-    if (i + 1 >= argc) usage(option + " needs a value");
-    return argv[++i];
-  };
-  auto numbers = [&](const std::string &option, int count) {
-    std::vector<double> list;
-    for (int k = 0; k < count; k++) list.push_back(number(option, value(option)));
-    return list;
-  };
-  auto is_number = [&](int k) {
-    char *end;
-    return k < argc && (strtod(argv[k], &end), end != argv[k] && !*end);
-  };
-  for (; i < argc; i++) {
-    const std::string word = argv[i];
-    if (word == "--help" || word == "-h") {
-      fputs(help, stdout);
-      exit(0);
-    } else if (word == "--spacing") {
-      o.spacing = numbers(word, is_number(i + 2) ? 3 : 1);
-      for (double h : o.spacing)
-        if (!(h > 0.0)) usage("--spacing must be > 0, got " + std::to_string(h));
-      if (o.spacing.size() == 1) o.spacing.resize(3, o.spacing[0]);
-    } else if (word == "--bounds") {
-      o.bounds = numbers(word, 6);
-      for (int c = 0; c < 3; c++)
-        if (o.bounds[2 * c + 1] < o.bounds[2 * c])
-          usage("--bounds: the upper bound along " + std::string(1, "xyz"[c]) +
-                " must not be below the lower one");
-    } else if (word == "--planar") {
-      o.planar = number(word, value(word));
-    } else if (word == "--scale") {
-      o.scale = number(word, value(word));
-      if (!(o.scale > 0.0)) usage("--scale must be > 0, got " + std::string(argv[i]));
-    } else if (word == "--velocity") {
-      o.velocity = value(word);
-    } else if (word == "--pressure") {
-      o.pressure = value(word);
-    } else if (word == "--times") {
-      o.times = value(word);
-    } else if (word == "--solution") {
-      o.solution = value(word);
-    } else if (word == "--wall") {
-      o.walls.push_back(value(word));
-    } else if (word == "--compress") {
-      o.compress = true;
-    } else if (word.compare(0, 2, "--") == 0) {
-      usage("there is no option " + word);
-    } else if (o.input.empty()) {
-      o.input = word;
-    } else if (o.output.empty()) {
-      o.output = word;
-    } else
-      usage("one INPUT and one OUTPUT, got also " + word);
-  }
-  if (o.output.empty()) usage("INPUT and OUTPUT are needed");
-  if (o.spacing.empty()) usage("--spacing is needed");
-  return o;
-}
 
 // steps of the input that --times chooses
 std::vector<int> choose_times(const Options &o, const std::vector<double> &steps)
@@ -148,27 +41,19 @@ std::vector<int> choose_times(const Options &o, const std::vector<double> &steps
   return chosen;
 }
 
-// nodes from the lower bound on, the last one not beyond the upper
-Grid make_grid(const Options &o, const Mesh &mesh)
+// nodes from the lower bound on, the last one not beyond the upper; low, high: of the mesh
+Grid make_grid(const Options &o, const Point &low, const Point &high, bool flat_mesh)
 {
-  Point low, high;
-  low.fill(1e300);
-  high.fill(-1e300);
-  for (const auto &p : mesh.points)
-    for (int c = 0; c < 3; c++) {
-      low[c] = std::min(low[c], p[c]);
-      high[c] = std::max(high[c], p[c]);
-    }
   Grid grid;
-  const bool flat = mesh.dim() == 2 || !std::isnan(o.planar);
+  const bool flat = flat_mesh || !std::isnan(o.planar);
   double nodes = 1.0;
   for (int c = 0; c < 3; c++) {
     double a = o.bounds.empty() ? low[c] : o.bounds[2 * c];
     double b = o.bounds.empty() ? high[c] : o.bounds[2 * c + 1];
     grid.spacing[c] = o.spacing[c];
     if (flat && c == 2) {
-      grid.origin[c] = mesh.dim() == 2 ? low[2] : o.planar;
-      if (mesh.dim() == 3 && (o.planar < low[2] || o.planar > high[2]))
+      grid.origin[c] = flat_mesh ? low[2] : o.planar;
+      if (!flat_mesh && !o.input.empty() && (o.planar < low[2] || o.planar > high[2]))
         throw std::runtime_error(o.input + ": --planar must lie within the mesh, " +
                                  std::to_string(low[2]) + " to " + std::to_string(high[2]) +
                                  ", got " + std::to_string(o.planar));
@@ -182,15 +67,28 @@ Grid make_grid(const Options &o, const Mesh &mesh)
     const double count = std::floor((b - a) / o.spacing[c] + 1e-6) + 1.0;
     nodes *= count;
     if (!(nodes < 2e9))
-      throw std::runtime_error(o.input + ": --spacing is too fine: more than 2e9 nodes");
+      throw std::runtime_error(o.output + ": --spacing is too fine: more than 2e9 nodes");
     if (count < 2.0)
-      throw std::runtime_error(o.input + ": --spacing " + std::to_string(o.spacing[c]) + " along " +
-                               std::string(1, "xyz"[c]) + " is wider than the bounds, " +
-                               std::to_string(b - a));
+      throw std::runtime_error(o.output + ": --spacing " + std::to_string(o.spacing[c]) +
+                               " along " + std::string(1, "xyz"[c]) +
+                               " is wider than the bounds, " + std::to_string(b - a));
     grid.n[c] = static_cast<int>(count);
     grid.origin[c] = a;
   }
   return grid;
+}
+
+Grid make_grid(const Options &o, const Mesh &mesh)
+{
+  Point low, high;
+  low.fill(1e300);
+  high.fill(-1e300);
+  for (const auto &p : mesh.points)
+    for (int c = 0; c < 3; c++) {
+      low[c] = std::min(low[c], p[c]);
+      high[c] = std::max(high[c], p[c]);
+    }
+  return make_grid(o, low, high, mesh.dim() == 2);
 }
 
 void show_progress(double done)
@@ -256,9 +154,23 @@ void map(const Options &o)
            "walls    %zu points; largest velocity there / largest: %.2e\n",
            u.name.c_str(), q.fastest, q.divergence_max, q.divergence_rms, walls.size(), q.slip);
   }
+  printf("written in %.2f s\n", seconds(begin));
+  if (o.has_walls()) write_walls(o, grid, writer);
   writer.close();
-  printf("output   %s, %zu time(s); written in %.2f s\n", o.output.c_str(), steps.size(),
-         seconds(begin));
+  printf("output   %s, %zu time(s)\n", o.output.c_str(), steps.size());
+}
+
+// walls without a flow
+void map_walls(const Options &o)
+{
+  const Point low{o.bounds[0], o.bounds[2], o.bounds[4]},
+      high{o.bounds[1], o.bounds[3], o.bounds[5]};
+  const Grid grid = make_grid(o, low, high, false);
+  printf("grid     %d x %d x %d nodes\n", grid.n[0], grid.n[1], grid.n[2]);
+  VtkhdfWriter writer(o.output, grid, {}, o.compress);
+  write_walls(o, grid, writer);
+  writer.close();
+  printf("output   %s\n", o.output.c_str());
 }
 
 }    // namespace
@@ -267,7 +179,10 @@ int main(int argc, char **argv)
 {
   const Options options = parse(argc, argv);
   try {
-    map(options);
+    if (options.input.empty())
+      map_walls(options);
+    else
+      map(options);
   } catch (const std::exception &error) {
     fprintf(stderr, "flowgrid: %s\n", error.what());
     return 1;

@@ -70,7 +70,23 @@ void VtkhdfWriter::write(const std::string &name, int components, int frame,
                          const std::vector<double> &values)
 {
   const bool exists = H5Lexists(points, name.c_str(), H5P_DEFAULT) > 0;
-  const hid_t set = exists ? H5Dopen2(points, name.c_str(), H5P_DEFAULT) : create(name, components);
+  const hid_t set = exists ? H5Dopen2(points, name.c_str(), H5P_DEFAULT)
+                           : create(name, components, false);
+  put(set, frame, values);
+  H5Dclose(set);
+}
+
+void VtkhdfWriter::write_distance(const std::string &name, const std::vector<double> &values,
+                                  double surface_error)
+{
+  const hid_t set = create(name, 1, true);
+  put(set, 0, values);
+  attribute(set, "surface_error", H5T_NATIVE_DOUBLE, 1, &surface_error);
+  H5Dclose(set);
+}
+
+void VtkhdfWriter::put(hid_t set, int frame, const std::vector<double> &values)
+{
   check(set >= 0, "cannot be written");
   const hid_t space = H5Dget_space(set);
   const int rank = H5Sget_simple_extent_ndims(space);
@@ -92,13 +108,13 @@ void VtkhdfWriter::write(const std::string &name, int components, int frame,
     check(good, "cannot be written: is the disk full?");
   }
   H5Sclose(space);
-  H5Dclose(set);
 }
 
-hid_t VtkhdfWriter::create(const std::string &name, int components)
+// steady: all times of a series have the same values
+hid_t VtkhdfWriter::create(const std::string &name, int components, bool steady)
 {
   std::vector<hsize_t> dims;
-  if (frames) dims.push_back(frames);
+  if (frames) dims.push_back(steady ? 1 : frames);
   for (const int n : {layers, grid.n[1], grid.n[0]}) dims.push_back(n);
   if (components > 1) dims.push_back(components);
   const int rank = static_cast<int>(dims.size());
@@ -118,8 +134,8 @@ hid_t VtkhdfWriter::create(const std::string &name, int components)
   H5Sclose(space);
   if (!frames) return set;
 
-  std::vector<long long> first(frames);
-  std::iota(first.begin(), first.end(), 0);
+  std::vector<long long> first(frames, 0);
+  if (!steady) std::iota(first.begin(), first.end(), 0);
   const hsize_t count = frames;
   const hid_t line = H5Screate_simple(1, &count, nullptr);
   const hid_t of = H5Dcreate2(offsets, name.c_str(), H5T_NATIVE_LLONG, line, H5P_DEFAULT,

@@ -25,6 +25,10 @@ class VtkhdfWriter {
 
   // `components` numbers per node, of frame 0, 1, ...
   void write(const std::string &name, int components, int frame, const std::vector<double> &values);
+  // Signed distances, the same at all times; surface_error: largest known distance between what the
+  // wall was given by and its true surface                                           [length]
+  void write_distance(const std::string &name, const std::vector<double> &values,
+                      double surface_error);
   // all has been written; an error of the disk is thrown here
   void close();
 
@@ -36,7 +40,8 @@ class VtkhdfWriter {
   hid_t file = -1, root = -1, points = -1, offsets = -1;
 
   void attribute(hid_t at, const char *name, hid_t type, hsize_t count, const void *values);
-  hid_t create(const std::string &name, int components);
+  hid_t create(const std::string &name, int components, bool steady);
+  void put(hid_t set, int frame, const std::vector<double> &values);
   void check(bool good, const char *what) const;
 };
 

@@ -1,0 +1,61 @@
+#include "isosurface.h"
+
+#include <vtkCleanPolyData.h>
+#include <vtkContourFilter.h>
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSTLWriter.h>
+#include <vtkTriangleFilter.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <stdexcept>
+
+namespace flowgrid {
+
+long write_isosurface(const std::string &path, const Grid &grid,
+                      const std::vector<double> &distance)
+{
+  const int layers = std::max(grid.n[2], 2);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(grid.n[0], grid.n[1], layers);
+  image->SetOrigin(grid.origin.data());
+  image->SetSpacing(grid.spacing.data());
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("distance");
+  values->SetNumberOfValues(image->GetNumberOfPoints());
+  for (vtkIdType k = 0; k < values->GetNumberOfValues(); k++)
+    values->SetValue(k, distance[k % distance.size()]);
+  image->GetPointData()->SetScalars(values);
+
+  vtkNew<vtkContourFilter> contour;
+  contour->SetInputData(image);
+  contour->SetValue(0, 0.0);
+  contour->ComputeNormalsOff();
+  vtkNew<vtkCleanPolyData> clean;    // nodes on the wall give triangles without area
+  clean->SetInputConnection(contour->GetOutputPort());
+  vtkNew<vtkTriangleFilter> triangles;
+  triangles->PassLinesOff();
+  triangles->PassVertsOff();
+  triangles->SetInputConnection(clean->GetOutputPort());
+  triangles->Update();
+
+  const auto write = [&](auto *writer) {
+    writer->SetFileName(path.c_str());
+    writer->SetInputData(triangles->GetOutput());
+    if (!writer->Write()) throw std::runtime_error(path + ": cannot be written");
+  };
+  if (path.size() > 4 && path.compare(path.size() - 4, 4, ".stl") == 0) {
+    vtkNew<vtkSTLWriter> writer;
+    writer->SetFileTypeToBinary();
+    write(writer.Get());
+  } else {
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    write(writer.Get());
+  }
+  return static_cast<long>(triangles->GetOutput()->GetNumberOfCells());
+}
+
+}    // namespace flowgrid

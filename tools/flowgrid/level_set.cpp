@@ -1,0 +1,102 @@
+#include "level_set.h"
+
+#include <stdexcept>
+
+namespace flowgrid {
+
+namespace {
+
+  template <class Distance> std::vector<double> seeds(const Grid &grid, Distance distance)
+  {
+    std::vector<double> values(grid.nodes());
+    size_t node = 0;
+    for (int k = 0; k < grid.n[2]; k++)
+      for (int j = 0; j < grid.n[1]; j++)
+        for (int i = 0; i < grid.n[0]; i++) values[node++] = distance(grid.node(i, j, k));
+    return values;
+  }
+
+  std::string place(const Grid &grid, size_t node)
+  {
+    std::string text;
+    for (int c = 0; c < 3; c++) {
+      text += std::to_string(grid.origin[c] + node % grid.n[c] * grid.spacing[c]) + " ";
+      node /= grid.n[c];
+    }
+    return text;
+  }
+
+}    // namespace
+
+LevelSet::LevelSet(const Wall &wall, const Grid &grid, double exact, double band)
+{
+  const auto lattice = lattice_of(grid);
+  const auto near = seeds(grid, [&](const Point &x) {
+    return wall.distance(x, exact);
+  });
+  for (const double value : near) seeded += !std::isnan(value);
+  if (!seeded) throw std::runtime_error("no wall lies within the grid or near it");
+  all = apf::FastMarching::fill(lattice, near, band);
+
+  share_arrays(wall, band);
+  std::vector<double> least(grid.nodes(), band);
+  for (auto &array : list) {
+    const auto known = seeds(grid, [&](const Point &x) {
+      double nearest = unknown;
+      for (const int piece : array.pieces) {
+        const double d = wall.distance(piece, x, exact);
+        if (!std::isnan(d) && !(std::fabs(d) >= std::fabs(nearest))) nearest = d;
+      }
+      return nearest;
+    });
+    array.values = apf::FastMarching::fill(lattice, known, band);
+    for (size_t node = 0; node < all.size(); node++) {
+      double &value = array.values[node];
+      if (all[node] > 0.0 && value < 0.0) value = band;    // another side of a thin wall
+      if (value < least[node]) least[node] = value;
+    }
+  }
+  for (size_t node = 0; node < all.size(); node++)
+    if (near[node] >= 0.0 && std::fabs(least[node] - near[node]) > 1e-3 * lattice.spacing[0])
+      throw std::runtime_error(
+          "the wall cannot be cut into pieces along its concave creases: near " +
+          place(grid, node) + "the wall is " + std::to_string(near[node]) +
+          " away, its pieces are " + std::to_string(least[node]));
+}
+
+// A piece joins the first array of its zone all pieces of which are two bands away.
+void LevelSet::share_arrays(const Wall &wall, double band)
+{
+  const auto &pieces = wall.pieces();
+  for (int p = 0; p < static_cast<int>(pieces.size()); p++) {
+    DistanceArray *home = nullptr;
+    for (auto &array : list) {
+      bool fits = pieces[array.pieces[0]].zone == pieces[p].zone;
+      for (const int other : array.pieces)
+        fits = fits && pieces[other].bounds.distance(pieces[p].bounds) > 2.0 * band;
+      if (fits && !home) home = &array;
+    }
+    if (!home) {
+      const auto taken = [&](const std::string &name) {
+        return std::any_of(list.begin(), list.end(), [&](const DistanceArray &array) {
+          return array.name == name;
+        });
+      };
+      const std::string name = "distance_" + pieces[p].zone;
+      std::string free = name;
+      for (int number = 2; taken(free); number++) free = name + "_" + std::to_string(number);
+      list.emplace_back();
+      home = &list.back();
+      home->name = free;
+    }
+    home->pieces.push_back(p);
+    home->surface_error = std::max(home->surface_error, pieces[p].surface_error);
+  }
+  if (list.size() > most_arrays)
+    throw std::runtime_error("the wall has " + std::to_string(list.size()) +
+                             " pieces between concave creases, more than " +
+                             std::to_string(most_arrays) +
+                             " arrays; a larger --crease makes fewer");
+}
+
+}    // namespace flowgrid

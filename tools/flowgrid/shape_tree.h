@@ -1,0 +1,92 @@
+// Solids made of half spaces: the inner sides of carriers, combined by union, intersection and
+// inversion. Carriers that coincide are one, so that faces which lie in each other are known to.
+
+#ifndef FLOWGRID_SHAPE_TREE_H
+#define FLOWGRID_SHAPE_TREE_H
+
+#include "carrier.h"
+
+#include <string>
+
+namespace flowgrid {
+
+class ShapeTree {
+ public:
+  static constexpr signed char solid = -1, neither = 0, fluid = 1;
+
+  struct Solid {
+    std::string name;
+    int root;
+  };
+  std::vector<Solid> solids;    // their union is the wall
+  std::vector<Carrier> carriers;
+
+  // Each returns a node. The solid side of a carrier is its negative one.
+  int half_space(const Carrier &carrier)
+  {
+    int index = 0, sign = 0;
+    for (; index < static_cast<int>(carriers.size()); index++)
+      if ((sign = carriers[index].same_as(carrier, coincident * (1.0 + length(carrier.origin)))))
+        break;
+    if (!sign) {
+      carriers.push_back(carrier);
+      sign = 1;
+    }
+    return add({Operation::half_space, {}, index, static_cast<signed char>(sign)});
+  }
+  int both(std::vector<int> of) { return add({Operation::both, std::move(of), -1, 1}); }
+  int either(std::vector<int> of) { return add({Operation::either, std::move(of), -1, 1}); }
+  int inverse(int of) { return add({Operation::inverse, {of}, -1, 1}); }
+
+  int size() const { return static_cast<int>(nodes.size()); }
+  // the carrier of a node that is a half space, -1 for others
+  int carrier_of(int node) const { return nodes[node].carrier; }
+
+  // What is at a place. side_of(node): the side of the carrier of a half space on which it lies, < 0
+  // or > 0, or 0 if the half space is to be left out as if it were not there.
+  template <class SideOf> signed char at(int node, const SideOf &side_of) const
+  {
+    const Node &n = nodes[node];
+    if (n.operation == Operation::half_space) return side_of(node) * n.sign;
+    if (n.operation == Operation::inverse) return -at(n.of[0], side_of);
+    const signed char wins = n.operation == Operation::both ? fluid : solid;
+    signed char result = neither;
+    for (const int child : n.of) {
+      const signed char one = at(child, side_of);
+      if (one == wins) return wins;
+      if (one) result = one;
+    }
+    return result;
+  }
+  template <class SideOf> signed char at(const SideOf &side_of) const
+  {
+    signed char result = neither;
+    for (const auto &one : solids) {
+      const signed char here = at(one.root, side_of);
+      if (here == solid) return solid;
+      if (here) result = here;
+    }
+    return result;
+  }
+
+ private:
+  static constexpr double coincident = 1e-10;
+  enum class Operation { half_space, both, either, inverse };
+  struct Node {
+    Operation operation;
+    std::vector<int> of;
+    int carrier;
+    signed char sign;
+  };
+  std::vector<Node> nodes;
+
+  int add(Node node)
+  {
+    nodes.push_back(std::move(node));
+    return static_cast<int>(nodes.size()) - 1;
+  }
+};
+
+}    // namespace flowgrid
+
+#endif

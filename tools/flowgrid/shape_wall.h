@@ -1,0 +1,55 @@
+// The wall of solids given by formulas. Its nearest point is the foot on a carrier, or lies where two
+// or three of them meet; of all such points those count which are on the border of the solid.
+
+#ifndef FLOWGRID_SHAPE_WALL_H
+#define FLOWGRID_SHAPE_WALL_H
+
+#include "shape_tree.h"
+#include "wall.h"
+
+#include <map>
+
+namespace flowgrid {
+
+class ShapeWall : public Wall {
+ public:
+  // turning: of the surface toward the fluid beyond which it is cut at an edge   [radians]
+  // Throws std::runtime_error if no part of the wall lies in the grid.
+  ShapeWall(ShapeTree solids, const Grid &grid, double turning);
+
+  double distance(const Point &x, double limit) const override;
+  double distance(int piece, const Point &x, double limit) const override;
+
+ private:
+  using Sides = std::vector<signed char>;
+
+  ShapeTree tree;
+  bool planar;
+  double size;                 // of the grid: what is 0 beside it                       [length]
+  std::vector<int> piece;      // of each carrier; -1: nowhere a face of the wall
+  std::vector<bool> across;    // planes across which a plane grid lies: they are no walls there
+  std::vector<bool> face;      // of each half space: whether it makes a face of the wall somewhere
+
+  enum class Meeting { none, smooth, convex, concave };
+  struct Survey;
+  void check_planar() const;
+  void find_faces(const Grid &grid, Survey &);
+  void note_face(int carrier, const Sides &side, Survey &);
+  void note_meeting(int a, int b, const Point &x, const Grid &grid, double turning, Survey &) const;
+  Meeting meeting(int a, int b, const Point &y, double turning) const;
+  void make_pieces(Survey &);
+
+  Sides sides(const Point &x, double on) const;
+  signed char at(const Sides &side) const;
+  signed char at(int which, const Sides &side) const;
+  bool on_border(int which, const Point &y) const;
+  double unsigned_distance(int which, const Point &x, double limit) const;
+  bool counts(int which, int carrier) const
+  {
+    return !across[carrier] && piece[carrier] >= 0 && (which < 0 || piece[carrier] == which);
+  }
+};
+
+}    // namespace flowgrid
+
+#endif

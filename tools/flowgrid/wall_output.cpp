@@ -1,0 +1,87 @@
+#include "wall_output.h"
+
+#include "isosurface.h"
+#include "level_set.h"
+#include "shape_parser.h"
+#include "shape_wall.h"
+#include "wall_report.h"
+
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+
+namespace flowgrid {
+
+namespace {
+
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+
+  std::unique_ptr<Wall> make_wall(const Options &o, const Grid &grid)
+  {
+    auto wall = std::make_unique<JointWall>();
+    if (!o.shapes.empty()) {
+      ShapeTree solids;
+      for (const auto &text : o.shapes) parse_shape(text, solids);
+      wall->add(std::make_unique<ShapeWall>(std::move(solids), grid, o.crease * degree));
+    }
+    return wall;
+  }
+
+  void report(const Options &o, const Grid &grid, const Wall &wall, const LevelSet &levels,
+              double exact, double widest, double band)
+  {
+    const double contact = o.particle > 0.0 ? 0.5 * o.particle : std::min(exact, 2.0 * widest);
+    const double high = std::min(contact + 0.5 * widest, exact);
+    for (const auto &array : levels.arrays()) {
+      const auto q = wall_quality(wall, grid, levels, array, std::max(contact - 0.5 * widest, 0.0),
+                                  high, band);
+      printf("%s: size of slope less 1: max %.2e, rms %.2e; largest error %.2e of distances near "
+             "%.3g at %.6g %.6g %.6g (%d points); surface known to %.2e\n",
+             array.name.c_str(), q.slope_max, q.slope_rms, q.error, contact, q.error_at[0],
+             q.error_at[1], q.error_at[2], q.points, array.surface_error);
+    }
+    if (o.particle == 0.0) return;
+    const auto narrow = find_narrows(grid, levels.whole(), o.particle);
+    const auto warn = [&](const char *what, double width, const Point &at) {
+      if (std::isfinite(width))
+        printf("warning  %s narrower than a particle: %.3g wide at %.6g %.6g %.6g\n", what, width,
+               at[0], at[1], at[2]);
+    };
+    warn("a gap is", narrow.gap, narrow.gap_at);
+    warn("a solid is", narrow.solid, narrow.solid_at);
+  }
+
+}    // namespace
+
+void write_walls(const Options &o, const Grid &grid, VtkhdfWriter &writer)
+{
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  const int dims = grid.n[2] == 1 ? 2 : 3;
+  const double widest = *std::max_element(grid.spacing.begin(), grid.spacing.begin() + dims);
+  const double exact = o.exact > 0.0 ? o.exact : std::max(o.particle, 4.0 * widest);
+  const double band = std::max(o.band * widest, exact);
+  const auto wall = make_wall(o, grid);
+  const LevelSet levels(*wall, grid, exact, band);
+  printf("wall     %zu piece(s) in %zu array(s); %zu nodes of exact distance, up to %.6g; band "
+         "%.6g; in %.2f s\n",
+         wall->pieces().size(), levels.arrays().size(), levels.exact_nodes(), exact, band,
+         seconds());
+  for (const auto &warning : wall->warnings()) printf("warning  %s\n", warning.c_str());
+
+  double surface_error = 0.0;
+  for (const auto &array : levels.arrays()) {
+    writer.write_distance(array.name, array.values, array.surface_error);
+    surface_error = std::max(surface_error, array.surface_error);
+  }
+  writer.write_distance("distance", levels.whole(), surface_error);
+  report(o, grid, *wall, levels, exact, widest, band);
+  if (o.isosurface.empty()) return;
+  const long triangles = write_isosurface(o.isosurface, grid, levels.whole());
+  printf("surface  %s, %ld triangles\n", o.isosurface.c_str(), triangles);
+}
+
+}    // namespace flowgrid
