@@ -39,6 +39,7 @@ LevelSet::LevelSet(const Wall &wall, const Grid &grid, double exact, double band
   all = apf::FastMarching::fill(lattice, near, band);
 
   share_arrays(wall, band);
+  const double tiny = 1e-9 * lattice.spacing[0];
   std::vector<double> least(grid.nodes(), band);
   for (auto &array : list) {
     const auto known = seeds(grid, [&](const Point &x) {
@@ -52,12 +53,12 @@ LevelSet::LevelSet(const Wall &wall, const Grid &grid, double exact, double band
     array.values = apf::FastMarching::fill(lattice, known, band);
     for (size_t node = 0; node < all.size(); node++) {
       double &value = array.values[node];
-      if (all[node] > 0.0 && value < 0.0) value = band;    // another side of a thin wall
+      if (all[node] > -tiny && value < -2.0 * tiny) value = band;    // another side of a thin wall
       if (value < least[node]) least[node] = value;
     }
   }
   for (size_t node = 0; node < all.size(); node++)
-    if (near[node] >= 0.0 && std::fabs(least[node] - near[node]) > 1e-3 * lattice.spacing[0])
+    if (near[node] > 0.0 && std::fabs(least[node] - near[node]) > 1e-3 * lattice.spacing[0])
       throw std::runtime_error(
           "the wall cannot be cut into pieces along its concave creases: near " +
           place(grid, node) + "the wall is " + std::to_string(near[node]) +

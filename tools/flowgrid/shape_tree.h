@@ -43,30 +43,44 @@ class ShapeTree {
   int carrier_of(int node) const { return nodes[node].carrier; }
 
   // What is at a place. side_of(node): the side of the carrier of a half space on which it lies, < 0
-  // or > 0, or 0 if the half space is to be left out as if it were not there.
-  template <class SideOf> signed char at(int node, const SideOf &side_of) const
+  // or > 0, or 0 if the half space is to be left out as if it were not there. used: nodes that are
+  // looked at, all if it is empty; of half spaces inside a node that is used all are.
+  template <class SideOf>
+  signed char at(int node, const SideOf &side_of, const std::vector<bool> &used = {}) const
   {
     const Node &n = nodes[node];
     if (n.operation == Operation::half_space) return side_of(node) * n.sign;
-    if (n.operation == Operation::inverse) return -at(n.of[0], side_of);
+    if (!used.empty() && !used[node]) return neither;
+    if (n.operation == Operation::inverse) return -at(n.of[0], side_of, used);
     const signed char wins = n.operation == Operation::both ? fluid : solid;
     signed char result = neither;
     for (const int child : n.of) {
-      const signed char one = at(child, side_of);
+      const signed char one = at(child, side_of, used);
       if (one == wins) return wins;
       if (one) result = one;
     }
     return result;
   }
-  template <class SideOf> signed char at(const SideOf &side_of) const
+  template <class SideOf>
+  signed char at(const SideOf &side_of, const std::vector<bool> &used = {}) const
   {
     signed char result = neither;
     for (const auto &one : solids) {
-      const signed char here = at(one.root, side_of);
+      if (!used.empty() && !used[one.root]) continue;
+      const signed char here = at(one.root, side_of, used);
       if (here == solid) return solid;
       if (here) result = here;
     }
     return result;
+  }
+
+  // Marks the nodes with a half space below them that is marked.
+  void mark_upward(std::vector<bool> &marks) const
+  {
+    // children come before their parents
+    for (size_t node = 0; node < nodes.size(); node++)
+      for (const int child : nodes[node].of)
+        if (marks[child]) marks[node] = true;
   }
 
  private:

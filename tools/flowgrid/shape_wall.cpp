@@ -28,27 +28,6 @@ namespace {
     return false;
   }
 
-  // Calls f(side) for all places around a point that lies on those carriers whose side is 0, until
-  // it returns false.
-  template <class F>
-  void for_places_around(const std::vector<Carrier> &carriers, const Point &y,
-                         std::vector<signed char> side, F f)
-  {
-    constexpr size_t most = 10;
-    std::vector<size_t> tied;
-    for (size_t c = 0; c < side.size() && tied.size() < most; c++)
-      if (side[c] == 0) tied.push_back(c);
-    for (int bits = 0; bits < 1 << tied.size(); bits++) {
-      std::vector<Point> normals;
-      for (size_t k = 0; k < tied.size(); k++) {
-        side[tied[k]] = bits >> k & 1 ? 1 : -1;
-        normals.push_back(double(side[tied[k]]) * carriers[tied[k]].normal(y));
-      }
-      if (tied.size() > 2 && !have_common_part(normals)) continue;
-      if (!f(side)) return;
-    }
-  }
-
 }    // namespace
 
 // What the nodes near the wall tell.
@@ -264,6 +243,16 @@ void ShapeWall::make_pieces(Survey &survey)
                           " go over into each other without a concave crease: one array, " +
                           most->first);
   }
+  used.assign(list.size(), std::vector<bool>(tree.size(), false));
+  for (int node = 0; node < tree.size(); node++) {
+    const int c = tree.carrier_of(node);
+    if (c >= 0 && piece[c] >= 0 && face[node]) used[piece[c]][node] = true;
+  }
+  for (auto &marks : used) tree.mark_upward(marks);
+  crease.assign(piece.size(), std::vector<bool>(piece.size(), false));
+  for (const auto &[pair, counts] : survey.meetings)
+    if (counts.of[static_cast<int>(Meeting::concave)])
+      crease[pair.first][pair.second] = crease[pair.second][pair.first] = true;
   for (const auto &[pair, counts] : survey.meetings)
     if (counts.of[static_cast<int>(Meeting::concave)] && piece[pair.first] == piece[pair.second]) {
       const Point &at = counts.at;
@@ -295,32 +284,82 @@ signed char ShapeWall::at(const Sides &side) const
   });
 }
 
-// The same for a piece: faces of other pieces are left out, so that it goes on beyond them.
+// The same for a piece: faces of other pieces are left out, so that it goes on beyond them, and so
+// are the parts of the formula without a face of it.
 signed char ShapeWall::at(int which, const Sides &side) const
 {
   if (which < 0) return at(side);
-  return tree.at([&](int node) -> signed char {
-    const int carrier = tree.carrier_of(node);
-    const bool counts = piece[carrier] < 0 || (piece[carrier] == which && face[node]);
-    return counts ? side[carrier] : 0;
-  });
+  return tree.at(
+      [&](int node) -> signed char {
+        const int carrier = tree.carrier_of(node);
+        const bool counts = piece[carrier] < 0 || (piece[carrier] == which && face[node]);
+        return counts ? side[carrier] : 0;
+      },
+      used[which]);
 }
 
-// Whether a point of a carrier is one of the wall, or of its continuation, which lies in solids only.
-bool ShapeWall::on_border(int which, const Point &y) const
+ShapeWall::Border ShapeWall::border(int which, const Nearest &candidate, double limit) const
 {
-  bool solid = false, fluid = false, within = which < 0;
-  for_places_around(tree.carriers, y, sides(y, on_surface * size), [&](const Sides &side) {
-    if (!within) within = at(side) == ShapeTree::solid;
-    const auto here = at(which, side);
-    solid |= here == ShapeTree::solid;
-    fluid |= here == ShapeTree::fluid;
-    return !(solid && fluid && within);
-  });
-  return solid && fluid && within;
+  const Sides side = sides(candidate.at, on_surface * size);
+  bool all_fluid, ignored;
+  const bool wall = changes(-1, candidate, side, all_fluid);
+  if (which >= 0 && !all_fluid && changes(which, candidate, side, ignored) &&
+      (wall || near_own_crease(candidate, limit)))
+    return Border::piece;
+  return wall ? Border::wall : Border::none;
 }
 
-double ShapeWall::unsigned_distance(int which, const Point &x, double limit) const
+// Whether the carriers of a point part solid from fluid there. side: 0 for those that it is on.
+bool ShapeWall::changes(int which, const Nearest &candidate, Sides side, bool &all_fluid) const
+{
+  constexpr size_t most = 10;
+  std::vector<int> tied(candidate.carriers, candidate.carriers + 3);
+  tied.erase(std::remove(tied.begin(), tied.end(), -1), tied.end());
+  std::vector<int> crossing;
+  const size_t given = tied.size();
+  for (int c = 0; c < static_cast<int>(side.size()); c++) {
+    if (side[c] != 0 || std::find(tied.begin(), tied.end(), c) != tied.end()) continue;
+    const Point n = tree.carriers[c].normal(candidate.at);
+    bool touches = false;    // one of the point's carriers, so that they change sides together
+    for (size_t k = 0; k < given; k++)
+      touches |= length(cross(n, tree.carriers[tied[k]].normal(candidate.at))) < 1e-6;
+    (touches ? tied : crossing).push_back(c);
+  }
+  const size_t own = std::min(tied.size(), most);
+  tied.insert(tied.end(), crossing.begin(), crossing.end());
+  tied.resize(std::min(tied.size(), most));
+  all_fluid = true;
+  for (int others = 0; others < 1 << (tied.size() - own); others++) {
+    bool solid = false, fluid = false;
+    for (int own_bits = 0; own_bits < 1 << own; own_bits++) {
+      std::vector<Point> normals;
+      const int bits = others << own | own_bits;
+      for (size_t k = 0; k < tied.size(); k++) {
+        side[tied[k]] = bits >> k & 1 ? 1 : -1;
+        normals.push_back(double(side[tied[k]]) * tree.carriers[tied[k]].normal(candidate.at));
+      }
+      if (tied.size() > 2 && !have_common_part(normals)) continue;
+      (at(which, side) == ShapeTree::solid ? solid : fluid) = true;
+    }
+    all_fluid = all_fluid && !solid;
+    if (solid && fluid) return true;
+  }
+  return false;
+}
+
+// A continuation ends where another side of the solid is nearer than that of the crease which it
+// came through.
+bool ShapeWall::near_own_crease(const Nearest &candidate, double limit) const
+{
+  const Nearest wall = nearest(-1, candidate.at, limit);
+  if (std::isnan(wall.distance)) return true;
+  for (const int own : candidate.carriers)
+    for (const int other : wall.carriers)
+      if (own >= 0 && other >= 0 && crease[own][other]) return true;
+  return false;
+}
+
+ShapeWall::Nearest ShapeWall::nearest(int which, const Point &x, double limit) const
 {
   std::vector<std::pair<double, int>> near;
   for (int c = 0; c < static_cast<int>(piece.size()); c++) {
@@ -329,24 +368,30 @@ double ShapeWall::unsigned_distance(int which, const Point &x, double limit) con
     if (d <= limit) near.push_back({d, c});
   }
   std::sort(near.begin(), near.end());
-  double best = unknown;
-  const auto better = [&](double d) {
-    return d <= limit && !(d >= best);
+  Nearest best;
+  const auto may_be_better = [&](double d) {
+    return d <= limit && !(d >= best.distance);
+  };
+  const auto consider = [&](Nearest candidate) {
+    candidate.distance = length(candidate.at - x);
+    if (!may_be_better(candidate.distance)) return;
+    candidate.border = border(which, candidate, limit);
+    if (candidate.border != Border::none) best = candidate;
   };
   for (const auto &[d, c] : near)
-    if (better(d) && on_border(which, tree.carriers[c].foot(x))) best = d;
+    if (may_be_better(d)) consider({d, tree.carriers[c].foot(x), Border::none, {c, -1, -1}});
   const Carrier *of[3];
   Point y;
-  for (size_t a = 0; a < near.size(); a++)
-    for (size_t b = 0; b < a && better(near[a].first); b++) {
+  for (size_t a = 0; a < near.size() && may_be_better(near[a].first); a++)
+    for (size_t b = 0; b < a; b++) {
       of[0] = &tree.carriers[near[a].second];
       of[1] = &tree.carriers[near[b].second];
-      if (nearest_point(of, 2, x, y) && better(length(y - x)) && on_border(which, y))
-        best = length(y - x);
-      for (size_t c = 0; c < b && !planar && better(near[a].first); c++) {
+      if (nearest_point(of, 2, x, y))
+        consider({0.0, y, Border::none, {near[a].second, near[b].second, -1}});
+      for (size_t c = 0; c < b && !planar; c++) {
         of[2] = &tree.carriers[near[c].second];
-        if (nearest_point(of, 3, x, y) && better(length(y - x)) && on_border(which, y))
-          best = length(y - x);
+        if (nearest_point(of, 3, x, y))
+          consider({0.0, y, Border::none, {near[a].second, near[b].second, near[c].second}});
       }
     }
   return best;
@@ -354,17 +399,24 @@ double ShapeWall::unsigned_distance(int which, const Point &x, double limit) con
 
 double ShapeWall::distance(const Point &x, double limit) const
 {
-  const double d = unsigned_distance(-1, x, limit);
+  const double d = nearest(-1, x, limit).distance;
   return at(sides(x, 0.0)) == ShapeTree::solid ? -d : d;
 }
 
+// The side of x is that of the surface around the nearest point.
 double ShapeWall::distance(int which, const Point &x, double limit) const
 {
-  const double d = unsigned_distance(which, x, limit);
-  const Sides side = sides(x, 0.0);
-  const bool behind = at(which, side) == ShapeTree::solid;
-  if (behind && at(side) == ShapeTree::fluid) return std::numeric_limits<double>::infinity();
-  return behind ? -d : d;
+  const Nearest found = nearest(which, x, limit);
+  if (std::isnan(found.distance)) return unknown;
+  const Sides of_x = sides(x, 0.0);
+  Sides side = sides(found.at, on_surface * size);
+  for (size_t c = 0; c < side.size(); c++)
+    if (side[c] == 0) side[c] = of_x[c];
+  for (const int c : found.carriers)
+    if (c >= 0) side[c] = of_x[c];
+  const bool behind = at(found.border == Border::piece ? which : -1, side) == ShapeTree::solid;
+  if (behind && at(of_x) == ShapeTree::fluid) return std::numeric_limits<double>::infinity();
+  return behind ? -found.distance : found.distance;
 }
 
 }    // namespace flowgrid

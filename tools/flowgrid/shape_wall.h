@@ -30,7 +30,18 @@ class ShapeWall : public Wall {
   std::vector<bool> across;    // planes across which a plane grid lies: they are no walls there
   std::vector<bool> face;      // of each half space: whether it makes a face of the wall somewhere
 
+  std::vector<std::vector<bool>> used;      // by each piece: nodes of the tree
+  std::vector<std::vector<bool>> crease;    // whether two carriers meet in a concave edge
+
   enum class Meeting { none, smooth, convex, concave };
+  // What a point of carriers is: one of a piece or its continuation, else one of the wall, or neither
+  enum class Border { none, piece, wall };
+  struct Nearest {
+    double distance = unknown;
+    Point at{};
+    Border border = Border::none;
+    int carriers[3] = {-1, -1, -1};    // that it is of
+  };
   struct Survey;
   void check_planar() const;
   void find_faces(const Grid &grid, Survey &);
@@ -42,8 +53,10 @@ class ShapeWall : public Wall {
   Sides sides(const Point &x, double on) const;
   signed char at(const Sides &side) const;
   signed char at(int which, const Sides &side) const;
-  bool on_border(int which, const Point &y) const;
-  double unsigned_distance(int which, const Point &x, double limit) const;
+  Border border(int which, const Nearest &candidate, double limit) const;
+  bool changes(int which, const Nearest &candidate, Sides side, bool &all_fluid) const;
+  bool near_own_crease(const Nearest &candidate, double limit) const;
+  Nearest nearest(int which, const Point &x, double limit) const;
   bool counts(int which, int carrier) const
   {
     return !across[carrier] && piece[carrier] >= 0 && (which < 0 || piece[carrier] == which);
