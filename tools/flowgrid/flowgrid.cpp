@@ -155,7 +155,12 @@ void map(const Options &o)
            u.name.c_str(), q.fastest, q.divergence_max, q.divergence_rms, walls.size(), q.slip);
   }
   printf("written in %.2f s\n", seconds(begin));
-  if (o.has_walls()) write_walls(o, grid, writer);
+  if (o.mesh_walls) {
+    const Surface walls = input.wall_surface(input.velocity(steps.back(), o.velocity), o.scale,
+                                             strip_half_width(o, grid));
+    write_walls(o, grid, &walls, writer);
+  } else if (o.has_walls())
+    write_walls(o, grid, nullptr, writer);
   writer.close();
   printf("output   %s, %zu time(s)\n", o.output.c_str(), steps.size());
 }
@@ -168,7 +173,7 @@ void map_walls(const Options &o)
   const Grid grid = make_grid(o, low, high, false);
   printf("grid     %d x %d x %d nodes\n", grid.n[0], grid.n[1], grid.n[2]);
   VtkhdfWriter writer(o.output, grid, {}, o.compress);
-  write_walls(o, grid, writer);
+  write_walls(o, grid, nullptr, writer);
   writer.close();
   printf("output   %s\n", o.output.c_str());
 }

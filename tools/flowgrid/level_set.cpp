@@ -58,7 +58,7 @@ LevelSet::LevelSet(const Wall &wall, const Grid &grid, double exact, double band
     }
   }
   for (size_t node = 0; node < all.size(); node++)
-    if (near[node] > 0.0 && std::fabs(least[node] - near[node]) > 1e-3 * lattice.spacing[0])
+    if (near[node] > 0.0 && least[node] - near[node] > 1e-3 * lattice.spacing[0])
       throw std::runtime_error(
           "the wall cannot be cut into pieces along its concave creases: near " +
           place(grid, node) + "the wall is " + std::to_string(near[node]) +

@@ -1,6 +1,8 @@
 #include "vtk_input.h"
 
 #include "cell_to_point.h"
+#include "decimals.h"
+#include "mesh_walls.h"
 #include "plot3d_text.h"
 
 #include <vtkAppendFilter.h>
@@ -38,6 +40,7 @@
 #include <filesystem>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -134,15 +137,6 @@ namespace {
     reader->SetVectorFunctionNumber(200);    // velocity
     reader->AddFunction(110);                // pressure
     return reader;
-  }
-
-  // Coordinates in single precision are taken for the decimal numbers that they stand for: 0.006 is
-  // not exactly the end of a box otherwise.
-  double as_written(double x)
-  {
-    char digits[32];
-    snprintf(digits, sizeof(digits), "%.7g", x);
-    return std::strtod(digits, nullptr);
   }
 
   std::string type_of(const std::string &block)
@@ -498,6 +492,44 @@ std::vector<Point> VtkInput::wall_points(const Field &velocity) const
         velocity.values[3 * p + 2] == 0.0)
       result.push_back(cells.points[p]);
   return result;
+}
+
+// A face is of the patch that all its corners are points of, and which has the fewest points.
+Surface VtkInput::wall_surface(const Field &velocity, double scale, double half_width) const
+{
+  Mesh scaled = cells;
+  for (auto &p : scaled.points) p = scale * p;
+  if (!vtk->foam) {
+    const auto rests = [&](const std::vector<int> &corners) {
+      for (const int p : corners)
+        for (int c = 0; c < 3; c++)
+          if (velocity.values[3 * p + c] != 0.0) return -1;
+      return 0;
+    };
+    return mesh_walls(scaled, {"wall"}, rests, half_width);
+  }
+  std::vector<std::string> names;
+  std::vector<std::set<int>> points;
+  std::vector<bool> is_wall;
+  for (const auto &patch : vtk->patches) {
+    std::string name = patch.name;
+    for (char &c : name)
+      if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+    names.push_back(name);
+    points.emplace_back(patch.point.begin(), patch.point.end());
+    is_wall.push_back(patch.wall);
+  }
+  const auto patch_of = [&](const std::vector<int> &corners) {
+    int found = -1;
+    for (int k = 0; k < static_cast<int>(points.size()); k++) {
+      const bool all = std::all_of(corners.begin(), corners.end(), [&](int p) {
+        return points[k].count(p) > 0;
+      });
+      if (all && (found < 0 || points[k].size() < points[found].size())) found = k;
+    }
+    return found >= 0 && is_wall[found] ? found : -1;
+  };
+  return mesh_walls(scaled, names, patch_of, half_width);
 }
 
 }    // namespace flowgrid

@@ -3,7 +3,7 @@
 #ifndef FLOWGRID_VTK_INPUT_H
 #define FLOWGRID_VTK_INPUT_H
 
-#include "mesh.h"
+#include "surface.h"
 
 #include <memory>
 #include <string>
@@ -30,6 +30,9 @@ class VtkInput {
   const std::vector<double> &times() const { return steps; }    // empty if there is but one
   // points of walls: patches, or where they are not known points on the border that do not move
   std::vector<Point> wall_points(const Field &velocity) const;
+
+  // Their faces, with normals into the fluid; of a plane mesh strips along z. Lengths times scale.
+  Surface wall_surface(const Field &velocity, double scale, double half_width) const;
 
   // Fields at a time. An empty name takes the one vector, or the scalar called p or pressure; a
   // field without components comes back where an optional one is not there.

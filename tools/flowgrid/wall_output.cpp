@@ -1,9 +1,11 @@
 #include "wall_output.h"
 
+#include "facet_wall.h"
 #include "isosurface.h"
 #include "level_set.h"
 #include "shape_parser.h"
 #include "shape_wall.h"
+#include "surface_input.h"
 #include "wall_report.h"
 
 #include <chrono>
@@ -16,9 +18,61 @@ namespace {
 
   constexpr double degree = 3.14159265358979323846 / 180.0;
 
-  std::unique_ptr<Wall> make_wall(const Options &o, const Grid &grid)
+  // Widths that follow from the options                                              [length]
+  struct Widths {
+    double widest, exact, band;    // spacing, exact distances, band
+
+    Widths(const Options &o, const Grid &grid)
+    {
+      widest = *std::max_element(grid.spacing.begin(), grid.spacing.begin() + dims_of(grid));
+      exact = o.exact > 0.0 ? o.exact : std::max(o.particle, 4.0 * widest);
+      band = std::max(o.band * widest, exact);
+    }
+    static int dims_of(const Grid &grid) { return grid.n[2] == 1 ? 2 : 3; }
+  };
+
+  std::unique_ptr<Wall> facet_wall(const Options &o, const Grid &grid, Surface surface,
+                                   const std::string &what)
+  {
+    const Widths width(o, grid);
+    try {
+      auto done = make_whole(surface, grid);
+      if (grid.n[2] == 1 && !surface.is_strip) {
+        surface = cut_at(surface, grid.origin[2], strip_half_width(o, grid));
+        make_whole(surface, grid);
+      }
+      const int count = static_cast<int>(surface.triangles.size());
+      auto wall = std::make_unique<FacetWall>(surface, grid, o.crease * degree, width.band);
+      if (!o.fluid_at.empty() && !surface.may_end) {
+        const Point x{o.fluid_at[0], o.fluid_at[1],
+                      grid.n[2] == 1 ? grid.origin[2] : o.fluid_at[2]};
+        if (wall->distance(x, 1e300) < 0.0) {
+          for (auto &t : surface.triangles) std::swap(t[1], t[2]);
+          wall = std::make_unique<FacetWall>(surface, grid, o.crease * degree, width.band);
+        }
+      }
+      printf("%s: %d triangles; %d duplicate and %d degenerate ones removed, %d turned round; "
+             "facets bulge by up to %.2e\n",
+             what.c_str(), count, done.duplicate, done.degenerate, done.turned, wall->bulge());
+      return wall;
+    } catch (const std::runtime_error &error) {
+      throw std::runtime_error(what + ": " + error.what());
+    }
+  }
+
+  std::unique_ptr<Wall> make_wall(const Options &o, const Grid &grid, const Surface *mesh)
   {
     auto wall = std::make_unique<JointWall>();
+    if (mesh) wall->add(facet_wall(o, grid, *mesh, "walls of the mesh"));
+    if (!o.surfaces.empty()) {
+      Surface surface;
+      std::string names;
+      for (const auto &words : o.surfaces) {
+        read_surface(words, o.scale, surface);
+        names += (names.empty() ? "" : ", ") + words;
+      }
+      wall->add(facet_wall(o, grid, std::move(surface), names));
+    }
     if (!o.shapes.empty()) {
       ShapeTree solids;
       for (const auto &text : o.shapes) parse_shape(text, solids);
@@ -53,18 +107,20 @@ namespace {
 
 }    // namespace
 
-void write_walls(const Options &o, const Grid &grid, VtkhdfWriter &writer)
+double strip_half_width(const Options &o, const Grid &grid)
+{
+  return 4.0 * Widths(o, grid).band;
+}
+
+void write_walls(const Options &o, const Grid &grid, const Surface *mesh, VtkhdfWriter &writer)
 {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   const auto seconds = [&] {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   };
-  const int dims = grid.n[2] == 1 ? 2 : 3;
-  const double widest = *std::max_element(grid.spacing.begin(), grid.spacing.begin() + dims);
-  const double exact = o.exact > 0.0 ? o.exact : std::max(o.particle, 4.0 * widest);
-  const double band = std::max(o.band * widest, exact);
-  const auto wall = make_wall(o, grid);
+  const auto [widest, exact, band] = Widths(o, grid);
+  const auto wall = make_wall(o, grid, mesh);
   const LevelSet levels(*wall, grid, exact, band);
   printf("wall     %zu piece(s) in %zu array(s); %zu nodes of exact distance, up to %.6g; band "
          "%.6g; in %.2f s\n",
