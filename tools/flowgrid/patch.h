@@ -28,7 +28,6 @@ class Patch {
     b[0][2] = handles[2][0], b[0][1] = handles[2][1];
     const Point middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
     Point edges{};
-    double off = 0.0;
     for (int k = 0; k < 3; k++)
       for (int n = 0; n < 2; n++) {
         edges = edges + (1.0 / 6.0) * handles[k][n];
@@ -36,6 +35,7 @@ class Patch {
         off = std::max(off, length(handles[k][n] - corners[k] - ((1.0 + n) / 3.0) * chord));
       }
     b[1][1] = edges + 0.5 * (edges - middle);
+    off = std::max(off, length(b[1][1] - middle));
     flat = off < 1e-12 * (length(corners[1] - corners[0]) + length(corners[2] - corners[0]));
     for (int j = 0; j < 4; j++)
       for (int k = 0; j + k < 4; k++) bounds.add(b[j][k]);
@@ -50,9 +50,11 @@ class Patch {
 
   const Box &box() const { return bounds; }
 
-  Foot nearest(const Point &x) const
+  // limit: feet farther away are not looked for; the distance is infinite then
+  Foot nearest(const Point &x, double limit) const
   {
     Foot best = flat_foot(x);
+    if (length(flat_point(best) - x) - off > limit) return {};
     evaluate(x, best);
     if (flat) return best;
     Foot inner = best;
@@ -88,7 +90,13 @@ class Patch {
  private:
   Point b[4][4];    // control point j, k: weight u^j v^k (1 - u - v)^(3 - j - k)
   Box bounds;
-  bool flat;
+  double off = 0.0;    // largest distance between control points and the triangle's own; a bound
+  bool flat;           // of that between points
+
+  Point flat_point(const Foot &foot) const
+  {
+    return (1.0 - foot.u - foot.v) * b[0][0] + foot.u * b[3][0] + foot.v * b[0][3];
+  }
 
   void evaluate(const Point &x, Foot &foot) const
   {

@@ -52,7 +52,7 @@ class PatchSet {
     tree.near(x, limit, [&](int k) {
       const double nearest = std::min(limit, best.distance);
       if (patches[k].box().distance(x) > nearest) return nearest;
-      const auto foot = patches[k].nearest(x);
+      const auto foot = patches[k].nearest(x, nearest);
       if (foot.distance < best.distance) {
         best = foot;
         found.patch = k;

@@ -234,35 +234,4 @@ Repairs make_whole(Surface &surface, const Grid &grid)
   return done;
 }
 
-Surface cut_at(const Surface &surface, double z, double half_width)
-{
-  // a corner in the plane counts as above it
-  Surface cut;
-  cut.zones = surface.zones;
-  cut.may_end = surface.may_end;
-  cut.is_strip = true;
-  for (size_t t = 0; t < surface.triangles.size(); t++) {
-    std::vector<Point> ends;
-    for (int k = 0; k < 3; k++) {
-      const Point &a = surface.points[surface.triangles[t][k]];
-      const Point &b = surface.points[surface.triangles[t][(k + 1) % 3]];
-      if ((a[2] < z) == (b[2] < z)) continue;
-      const bool up = a[2] < b[2];    // the same point from both triangles of the edge
-      const Point &low = up ? a : b, &high = up ? b : a;
-      ends.push_back(low + ((z - low[2]) / (high[2] - low[2])) * (high - low));
-    }
-    if (ends.size() != 2 || length(ends[1] - ends[0]) == 0.0) continue;
-    const Point wide{0.0, 0.0, half_width};
-    // cross(along, z) is the normal of the strip
-    if (dot(cross(ends[1] - ends[0], wide), surface.normal(static_cast<int>(t))) < 0.0)
-      std::swap(ends[0], ends[1]);
-    const Point low[2] = {ends[0] - wide, ends[1] - wide},
-                high[2] = {ends[0] + wide, ends[1] + wide};
-    cut.add(low[0], low[1], high[1], surface.zone[t]);
-    cut.add(low[0], high[1], high[0], surface.zone[t]);
-  }
-  if (cut.triangles.empty()) throw std::runtime_error("the surface does not meet the plane");
-  return cut;
-}
-
 }    // namespace flowgrid

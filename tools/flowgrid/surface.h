@@ -44,9 +44,6 @@ struct Repairs {
 // triangles, surfaces with one side, and ones that end within the grid unless they may.
 Repairs make_whole(Surface &surface, const Grid &grid);
 
-// The surface in which a plane of equal z cuts this one, drawn out along z to both sides.
-Surface cut_at(const Surface &surface, double z, double half_width);
-
 }    // namespace flowgrid
 
 #endif

@@ -35,6 +35,7 @@ namespace {
     };
     if (end == ".stl") {
       vtkNew<vtkSTLReader> reader;
+      reader->MergingOff();    // would drop triangles unseen
       from(reader.Get());
     } else if (end == ".vtp") {
       vtkNew<vtkXMLPolyDataReader> reader;

@@ -38,7 +38,8 @@ namespace {
     try {
       auto done = make_whole(surface, grid);
       if (grid.n[2] == 1 && !surface.is_strip) {
-        surface = cut_at(surface, grid.origin[2], strip_half_width(o, grid));
+        surface = cut_at(surface, SmoothSurface(surface, o.crease * degree), grid.origin[2],
+                         strip_half_width(o, grid));
         make_whole(surface, grid);
       }
       const int count = static_cast<int>(surface.triangles.size());
