@@ -3,6 +3,7 @@
 
 #include "flow/vtkhdf_file.h"
 #include "meshes.h"
+#include "program.h"
 
 #include "gtest/gtest.h"
 
@@ -21,40 +22,12 @@
 #include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace flowgrid;
-namespace fs = std::filesystem;
 
 namespace {
-
-// a folder that goes when the test ends
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("flowgrid-test-" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string operator/(const std::string &name) const { return (path / name).string(); }
-};
-
-struct Result {
-  int status;
-  std::string text;
-};
-Result flowgrid_with(const std::string &words)
-{
-  FILE *pipe = popen((std::string(FLOWGRID) + " " + words + " 2>&1").c_str(), "r");
-  std::string text;
-  char line[512];
-  while (fgets(line, sizeof(line), pipe)) text += line;
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
-}
 
 Point velocity(const double *x)
 {

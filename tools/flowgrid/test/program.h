@@ -1,0 +1,41 @@
+// Runs the program in a folder of its own.
+
+#ifndef FLOWGRID_TEST_PROGRAM_H
+#define FLOWGRID_TEST_PROGRAM_H
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace flowgrid {
+
+namespace fs = std::filesystem;
+
+// a folder that goes when the test ends
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("flowgrid-test-" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  std::string operator/(const std::string &name) const { return (path / name).string(); }
+};
+
+struct Result {
+  int status;
+  std::string text;
+};
+inline Result flowgrid_with(const std::string &words)
+{
+  FILE *pipe = popen((std::string(FLOWGRID) + " " + words + " 2>&1").c_str(), "r");
+  std::string text;
+  char line[512];
+  while (fgets(line, sizeof(line), pipe)) text += line;
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+}
+
+}    // namespace flowgrid
+
+#endif
