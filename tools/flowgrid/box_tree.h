@@ -18,8 +18,8 @@ class BoxTree {
     if (!boxes.empty()) build(boxes, 0, static_cast<int>(boxes.size()));
   }
 
-  // Calls visit(item) for boxes nearer than the limit, near ones first; visit returns the limit from
-  // then on.
+  // Calls visit(item) for boxes nearer than the limit, near ones first; visit returns the limit
+  // from then on.
   template <class Visit> void near(const Point &x, double limit, const Visit &visit) const
   {
     if (!nodes.empty() && nodes[0].box.distance(x) <= limit) descend(0, x, limit, visit);

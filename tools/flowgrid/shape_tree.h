@@ -42,9 +42,9 @@ class ShapeTree {
   // the carrier of a node that is a half space, -1 for others
   int carrier_of(int node) const { return nodes[node].carrier; }
 
-  // What is at a place. side_of(node): the side of the carrier of a half space on which it lies, < 0
-  // or > 0, or 0 if the half space is to be left out as if it were not there. used: nodes that are
-  // looked at, all if it is empty; of half spaces inside a node that is used all are.
+  // What is at a place. side_of(node): the side of the carrier of a half space on which it lies,
+  // < 0 or > 0, or 0 if the half space is to be left out as if it were not there. used: nodes that
+  // are looked at, all if it is empty; of half spaces inside a node that is used all are.
   template <class SideOf>
   signed char at(int node, const SideOf &side_of, const std::vector<bool> &used = {}) const
   {

@@ -1,5 +1,5 @@
-// The wall of solids given by formulas. Its nearest point is the foot on a carrier, or lies where two
-// or three of them meet; of all such points those count which are on the border of the solid.
+// The wall of solids given by formulas. Its nearest point is the foot on a carrier, or lies where
+// two or three of them meet; of all such points those count which are on the border of the solid.
 
 #ifndef FLOWGRID_SHAPE_WALL_H
 #define FLOWGRID_SHAPE_WALL_H
@@ -22,6 +22,7 @@ class ShapeWall : public Wall {
 
  private:
   using Sides = std::vector<signed char>;
+  static constexpr double on_surface = 1e-10;    // of the grid's size: distances that are 0
 
   ShapeTree tree;
   bool planar;
@@ -34,7 +35,7 @@ class ShapeWall : public Wall {
   std::vector<std::vector<bool>> crease;    // whether two carriers meet in a concave edge
 
   enum class Meeting { none, smooth, convex, concave };
-  // What a point of carriers is: one of a piece or its continuation, else one of the wall, or neither
+  // What a point is: one of a piece or its continuation, else one of the wall, or neither
   enum class Border { none, piece, wall };
   struct Nearest {
     double distance = unknown;

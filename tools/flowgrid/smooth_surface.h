@@ -35,8 +35,8 @@ struct SmoothSurface {
   void find_handles(const Surface &surface);
 };
 
-// The lines in which a plane of equal z cuts a surface, through points of its smooth edges, drawn out
-// along z to both sides. Throws std::runtime_error if there are none.
+// The lines in which a plane of equal z cuts a surface, through points of its smooth edges, drawn
+// out along z to both sides. Throws std::runtime_error if there are none.
 Surface cut_at(const Surface &surface, const SmoothSurface &smooth, double z, double half_width);
 
 // direction of a vector in the plane across a normal

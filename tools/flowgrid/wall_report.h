@@ -22,7 +22,7 @@ struct WallQuality {
 WallQuality wall_quality(const Wall &wall, const Grid &grid, const LevelSet &levels,
                          const DistanceArray &array, double low, double high, double band);
 
-// Where walls face each other at less than a particle's diameter, across the fluid or across a solid
+// Where walls face each other at less than a particle's diameter, across the fluid or a solid
 struct Narrows {
   double gap = INFINITY,
          solid = INFINITY;    // the narrowest one; infinite if there is none [length]
