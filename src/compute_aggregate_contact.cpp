@@ -1,5 +1,6 @@
 #include "compute_aggregate_contact.h"
 
+#include "contact/bridge_list.h"
 #include "contact/contact_list.h"
 
 #include "atom.h"
@@ -16,12 +17,13 @@
 #include <functional>
 #include <numeric>
 #include <unordered_map>
+#include <unordered_set>
 
 using namespace LAMMPS_NS;
 
 namespace {
 
-enum { ID, SIZE, WALL, CONTACTS_OF_ATOM, N_COLUMNS };
+enum { ID, SIZE, WALL, CONTACTS_OF_ATOM, BRIDGES_OF_ATOM, LIQUID_OF_ATOM, N_COLUMNS };
 
 // PairHybrid shows its sub-styles to derived classes only
 struct SubStyles : PairHybrid {
@@ -34,17 +36,22 @@ struct SubStyles : PairHybrid {
   }
 };
 
-// of all pair styles that keep contacts
-std::vector<const apf::ContactList *> contact_lists(Pair *pair)
+// what the pair styles that keep contacts have under a name
+template <class What> std::vector<const What *> extract_all(Pair *pair, const char *name)
 {
-  std::vector<const apf::ContactList *> lists;
+  std::vector<const What *> lists;
   if (!pair) return lists;
   for (auto *style : SubStyles::of(pair)) {
     int dim;
-    const void *list = style->extract("contact_list", dim);
-    if (list) lists.push_back(static_cast<const apf::ContactList *>(list));
+    const void *list = style->extract(name, dim);
+    if (list) lists.push_back(static_cast<const What *>(list));
   }
   return lists;
+}
+
+std::vector<const apf::ContactList *> contact_lists(Pair *pair)
+{
+  return extract_all<apf::ContactList>(pair, "contact_list");
 }
 
 // the atom that stands for a connected set; shortens the way there for the next search
@@ -72,7 +79,7 @@ ComputeAggregateContact::ComputeAggregateContact(LAMMPS *lmp, int narg, char **a
   size_vector = 6;
   extvector = 0;    // counts are not to be divided by the number of atoms
   comm_forward = 1;
-  comm_reverse = 1;
+  comm_reverse = 3;
   vector = new double[size_vector];
   std::fill_n(vector, size_vector, 0.0);
 }
@@ -150,20 +157,43 @@ void ComputeAggregateContact::gather_contacts()
 {
   contacts.clear();
   n_pair_contacts.assign(label.size(), 0);
+  n_bridges.assign(label.size(), 0);
+  liquid.assign(label.size(), 0.0);
+  for (const auto *on_atoms : extract_all<double>(force->pair, "liquid"))
+    for (int i = 0; i < atom->nlocal; i++) liquid[i] += on_atoms[i];
+  std::unordered_set<bigint> touching;    // pairs of atoms
+  const auto bridges = extract_all<apf::BridgeList>(force->pair, "bridge_list");
+  auto bind = [this](int i, int j) {
+    contacts.push_back({i, j, i});
+    n_pair_contacts[i]++;
+    n_pair_contacts[j]++;
+  };
+  auto pair_of = [](int i, int j) {
+    return static_cast<bigint>(std::min(i, j)) << 32 | std::max(i, j);
+  };
   for (const auto *list : contact_lists(force->pair)) {
     for (int k = 0; k < list->size(); k++) {
       const int i = list->i[k], j = list->j[k];
       if (!label[i] || !label[j] || list->ended(k)) continue;
-      contacts.push_back({i, j, i});
-      n_pair_contacts[i]++;
-      n_pair_contacts[j]++;
+      bind(i, j);
+      if (!bridges.empty()) touching.insert(pair_of(i, j));
     }
   }
+  for (const auto *list : bridges)
+    for (int k = 0; k < list->size(); k++) {
+      const int i = list->i[k], j = list->j[k];
+      if (!label[i] || !label[j]) continue;
+      if (!touching.count(pair_of(i, j))) bind(i, j);
+      n_bridges[i]++;
+      n_bridges[j]++;
+      liquid[i] += list->memory(k).volume_i;
+      liquid[j] += list->memory(k).volume_j;
+    }
 
   // newton off: the owner of a ghost has the contact as well and has counted it
   if (!force->newton_pair) return;
   reverse = CONTACTS;
-  comm->reverse_comm(this);
+  comm->reverse_comm(this, 3);
 }
 
 void ComputeAggregateContact::gather_wall_contacts()
@@ -176,6 +206,13 @@ void ComputeAggregateContact::gather_wall_contacts()
     if (!of_fix) continue;
     for (int i = 0; i < nlocal; i++)
       if (label[i]) n_wall_contacts[i] += of_fix[i];
+    const auto *bridges = static_cast<const int *>(fix->extract("wall_bridges", dim));
+    const auto *held = static_cast<const double *>(fix->extract("wall_liquid", dim));
+    for (int i = 0; bridges && i < nlocal; i++)
+      if (label[i]) {
+        n_bridges[i] += bridges[i];
+        liquid[i] += held[i];
+      }
   }
 }
 
@@ -200,7 +237,7 @@ void ComputeAggregateContact::spread_labels()
     for (const auto &c : contacts) label[c.i] = label[c.j] = label[c.root];
 
     reverse = LABEL;
-    comm->reverse_comm(this);
+    comm->reverse_comm(this, 1);
     comm->forward_comm(this);
 
     int differ_here = 0;
@@ -282,6 +319,8 @@ void ComputeAggregateContact::write_rows(const std::vector<Part> &parts,
     array_atom[i][SIZE] = single ? inside : parts[part_of[i]].size;
     array_atom[i][WALL] = wall ? 1.0 : 0.0;
     array_atom[i][CONTACTS_OF_ATOM] = n_pair_contacts[i] + n_wall_contacts[i];
+    array_atom[i][BRIDGES_OF_ATOM] = n_bridges[i];
+    array_atom[i][LIQUID_OF_ATOM] = inside ? liquid[i] : 0.0;
   }
 }
 
@@ -339,19 +378,28 @@ void ComputeAggregateContact::unpack_forward_comm(int n, int first, double *buf)
 
 int ComputeAggregateContact::pack_reverse_comm(int n, int first, double *buf)
 {
-  for (int m = 0; m < n; m++)
-    buf[m] = reverse == LABEL ? ubuf(label[first + m]).d : ubuf(n_pair_contacts[first + m]).d;
-  return n;
+  for (int i = first; i < first + n; i++)
+    if (reverse == LABEL) {
+      *buf++ = ubuf(label[i]).d;
+    } else {
+      *buf++ = n_pair_contacts[i];
+      *buf++ = n_bridges[i];
+      *buf++ = liquid[i];
+    }
+  return reverse == LABEL ? n : 3 * n;
 }
 
 void ComputeAggregateContact::unpack_reverse_comm(int n, int *list, double *buf)
 {
   for (int m = 0; m < n; m++) {
     const int i = list[m];
-    if (reverse == LABEL)
-      label[i] = std::min(label[i], static_cast<tagint>(ubuf(buf[m]).i));
-    else
-      n_pair_contacts[i] += static_cast<int>(ubuf(buf[m]).i);
+    if (reverse == LABEL) {
+      label[i] = std::min(label[i], static_cast<tagint>(ubuf(*buf++).i));
+    } else {
+      n_pair_contacts[i] += static_cast<int>(*buf++);
+      n_bridges[i] += static_cast<int>(*buf++);
+      liquid[i] += *buf++;
+    }
   }
 }
 

@@ -55,11 +55,13 @@ class ComputeAggregateContact : public Compute {
   };
 
   int nmax;                            // rows of array_atom
-  std::vector<Contact> contacts;       // closed contacts between particles of the group
+  std::vector<Contact> contacts;       // closed contacts and bridges between particles of the group
   std::vector<tagint> label;           // owned and ghost atoms: smallest ID found so far in the
                                        // aggregate of the atom, 0 outside the group
   std::vector<int> n_pair_contacts;    // owned and ghost atoms
   std::vector<int> n_wall_contacts;    // owned atoms
+  std::vector<int> n_bridges;          // owned and ghost atoms, also to walls
+  std::vector<double> liquid;          // owned and ghost atoms: on them and their share in bridges
   Totals totals;
   enum { LABEL, CONTACTS } reverse;    // what reverse_comm brings to the owner of an atom
 

@@ -129,12 +129,105 @@ bool parse_keyword(Words &words, apf::ContactModel &model)
   } else if (words.is("scale_stiffness")) {
     words.skip();
     model.stiffness_scale = words.number("scale_stiffness", 0.0, false, 1.0);
-  } else if (words.is("bridge")) {
-    words.refuse("keyword bridge (liquid bridges) is not available in this version");
   } else {
     return false;
   }
   return true;
+}
+
+// true at one of two words, which is then passed; keyword: what it belongs to
+bool parse_choice(Words &words, const std::string &keyword, const char *first, const char *second)
+{
+  words.need(1, keyword);
+  const bool is_first = words.is(first);
+  if (!is_first && !words.is(second))
+    words.refuse_word(fmt::format("{} must be {} or {}", keyword, first, second));
+  words.skip();
+  return is_first;
+}
+
+void parse_bridge(Words &words, apf::BridgeModel &bridge)
+{
+  bridge.volume_ratio = words.number("bridge volume ratio l", 0.0, false, 1.0);
+  bridge.sigma = words.number("bridge surface tension sigma", 0.0, false, infinity);
+  bridge.theta = words.number("bridge contact angle theta", 0.0, true, 89.0) * apf::pi / 180.0;
+  bridge.mu = words.number("bridge viscosity mu", 0.0, true, infinity);
+  if (words.is_number())
+    bridge.roughness = words.number("bridge least gap hmin over R", 0.0, false, 1.0);
+}
+
+double parse_wet_gamma(Words &words)
+{
+  const double x = words.number("wet_gamma x_ratio", 0.0, false, infinity);
+  const double Ai = words.number("wet_gamma A_i", 0.0, false, infinity);
+  const double Aj = words.number("wet_gamma A_j", 0.0, false, infinity);
+  const double Af = words.number("wet_gamma A_f", 0.0, true, infinity);
+  const double share = apf::wet_surface_energy(x, Ai, Aj, Af);
+  if (share < 0.0)
+    words.refuse(fmt::format("wet_gamma A_f = {} lies between A_i = {} and A_j = {}: surfaces that "
+                             "repel each other in the liquid cannot be modelled",
+                             Af, Ai, Aj));
+  return share;
+}
+
+// true if the word was a keyword of liquid bridges
+bool parse_liquid(Words &words, apf::BridgeModel &bridge)
+{
+  if (words.is("bridge")) {
+    words.skip();
+    parse_bridge(words, bridge);
+  } else if (words.is("form")) {
+    words.skip();
+    bridge.forming = parse_choice(words, "form", "contact", "film") ? apf::Forming::contact
+                                                                    : apf::Forming::film;
+  } else if (words.is("capillary")) {
+    words.skip();
+    bridge.capillary = parse_choice(words, "capillary", "maugis", "willett")
+        ? apf::Capillary::maugis
+        : apf::Capillary::willett;
+  } else if (words.is("tangential")) {
+    words.skip();
+    bridge.tangential = parse_choice(words, "tangential", "yes", "no");
+  } else if (words.is("wet_gamma")) {
+    words.skip();
+    bridge.wet_share = parse_wet_gamma(words);
+  } else if (words.is("inventory")) {
+    words.skip();
+    bridge.intake = words.number("inventory share", 0.0, false, 1.0);
+    if (words.is("even") || words.is("origin"))
+      bridge.sharing = parse_choice(words, "inventory split", "even", "origin")
+          ? apf::Sharing::even
+          : apf::Sharing::origin;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void check_bridge(const Words &words, const apf::BridgeModel &bridge)
+{
+  const apf::BridgeModel none;
+  if (!bridge.present()) {
+    const bool named = bridge.forming != none.forming || bridge.capillary != none.capillary ||
+        bridge.tangential || bridge.wet_share != 1.0 || bridge.inventory();
+    if (named)
+      words.refuse("keywords form, capillary, tangential, wet_gamma and inventory need keyword "
+                   "bridge l sigma theta mu");
+    return;
+  }
+  if (bridge.capillary != apf::Capillary::willett) return;
+  // of two equal spheres, the largest there is
+  const double volume = bridge.largest_volume(1.0);
+  if (volume > apf::largest_willett)
+    words.refuse(fmt::format("capillary willett is fitted for bridge volumes up to {} r^3 between "
+                             "equal spheres: bridge l must be <= {:.4g}, got {:.4g}",
+                             apf::largest_willett,
+                             bridge.volume_ratio * apf::largest_willett / volume,
+                             bridge.volume_ratio));
+  if (bridge.theta > apf::largest_willett_angle)
+    words.refuse(fmt::format("capillary willett is fitted for contact angles up to 50 degrees: "
+                             "bridge theta must be <= 50, got {:.4g}",
+                             bridge.theta * 180.0 / apf::pi));
 }
 
 }    // namespace
@@ -163,9 +256,12 @@ ContactCoeff LAMMPS_NS::parse_contact(LAMMPS *lmp, const char *command, int narg
     words.refuse(fmt::format("contact law must be jkr or material, got {}", arg[iarg]));
   }
 
-  while (!words.at_end() && parse_keyword(words, coeff.model)) {}
+  while (!words.at_end() &&
+         (parse_keyword(words, coeff.model) || parse_liquid(words, coeff.bridge))) {}
 
+  check_bridge(words, coeff.bridge);
   coeff.model.surface = apf::interface(coeff.material, coeff.material);
+  coeff.model.surface.gamma *= coeff.bridge.wet_share;
   if (coeff.model.twisting && !coeff.model.sliding())
     words.refuse("twisting yes needs sliding mu > 0, which limits its torque");
   if (coeff.model.rolling() && !coeff.model.adhesive())
@@ -179,7 +275,9 @@ ContactCoeff ContactCoeff::mixed(const ContactCoeff &i, const ContactCoeff &j)
 {
   ContactCoeff c;
   c.material = i.material;    // not used: the surface is that of both
+  c.bridge = apf::BridgeModel::mixed(i.bridge, j.bridge);
   c.model.surface = apf::interface(i.material, j.material);
+  c.model.surface.gamma *= c.bridge.wet_share;
   c.model.alpha = std::sqrt(i.model.alpha * j.model.alpha);
   c.model.mu = std::sqrt(i.model.mu * j.model.mu);
   c.model.twisting = i.model.twisting && j.model.twisting;
@@ -204,5 +302,17 @@ std::string ContactCoeff::words() const
   if (model.neck_end == apf::Break::force) text += " break force";
   if (model.stiffness_scale != 1.0)
     text += fmt::format(" scale_stiffness {:.16g}", model.stiffness_scale);
+  if (!bridge.present()) return text;
+  text += fmt::format(" bridge {:.16g} {:.16g} {:.16g} {:.16g} {:.16g}", bridge.volume_ratio,
+                      bridge.sigma, bridge.theta * 180.0 / apf::pi, bridge.mu, bridge.roughness);
+  if (bridge.forming == apf::Forming::film) text += " form film";
+  if (bridge.capillary == apf::Capillary::willett) text += " capillary willett";
+  if (bridge.tangential) text += " tangential yes";
+  // Hamaker constants that come to the same
+  if (bridge.wet_share != 1.0)
+    text += fmt::format(" wet_gamma {:.16g} 1 1 0", std::sqrt(1.0 / bridge.wet_share));
+  if (bridge.inventory())
+    text += fmt::format(" inventory {:.16g} {}", bridge.intake,
+                        bridge.sharing == apf::Sharing::even ? "even" : "origin");
   return text;
 }

@@ -10,6 +10,10 @@
 #include "respa.h"
 #include "update.h"
 
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
@@ -20,7 +24,7 @@ FixContactHistory::FixContactHistory(LAMMPS *lmp, int narg, char **arg) :
 {
   if (narg != 3) error->all(FLERR, 3, "Fix contact/history takes no arguments, got {}", arg[3]);
   comm_forward = 6;
-  comm_reverse = 1 + ContactStore::record_size;
+  comm_reverse = 1 + PartnerRecords<apf::ContactHistory>::record_size;
   register_with_atoms();
 }
 
@@ -95,10 +99,63 @@ void FixContactHistory::find_stiffest(apf::Stiffest &stiffest)
   pair->find_stiffest(stiffest);
 }
 
+void FixContactHistory::settle_bridges()
+{
+  pair->settle_bridges();
+}
+
 void FixContactHistory::sub_step(const apf::ContactTimes &times)
 {
   contacts_change();
   pair->sub_step(times);
+}
+
+/* ----------------------------------------------------------------------
+   liquid: what ranks took and gave goes to the owners, who tell how much there is now
+------------------------------------------------------------------------- */
+
+void FixContactHistory::begin_liquid(int i, double volume)
+{
+  if (std::isnan(store.liquid[i])) store.liquid[i] = volume;
+}
+
+void FixContactHistory::settle_liquid()
+{
+  if (!keeps_liquid()) return;
+  int moved = liquid_moved;
+  MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_INT, MPI_MAX, world);
+  if (!moved) return;
+  const int nlocal = atom->nlocal;
+  accounts.resize(2 * store.liquid.size(), 0.0);
+  give_to_owners(accounts, 2);
+  settled.assign(accounts.size(), 1.0);
+  for (int i = 0; i < nlocal; i++) {
+    const double taken = accounts[2 * i], there = store.liquid[i] + accounts[2 * i + 1];
+    if (taken > 0.0) settled[2 * i + 1] = std::min(1.0, std::max(0.0, there) / taken);
+    store.liquid[i] = there - settled[2 * i + 1] * taken;
+  }
+  tell_ghosts();
+  for (auto *keeper : keepers) keeper->settle_bridges();
+  accounts.clear();
+  liquid_moved = false;
+}
+
+void FixContactHistory::share_liquid()
+{
+  if (!keeps_liquid()) return;
+  settled.assign(2 * store.liquid.size(), 1.0);
+  tell_ghosts();
+}
+
+void FixContactHistory::tell_ghosts()
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  for (int i = 0; i < nlocal; i++) settled[2 * i] = store.liquid[i];
+  carried = &settled;
+  columns = 2;
+  comm->forward_comm(this, 2);
+  carried = nullptr;
+  for (int i = nlocal; i < nall; i++) store.liquid[i] = settled[2 * i];
 }
 
 double FixContactHistory::contacts_here() const
@@ -169,6 +226,11 @@ void FixContactHistory::add_counts(double *to)
     to[contacts.i[k]] += 1.0;
     if (contacts.j[k] < atom->nlocal || force->newton_pair) to[contacts.j[k]] += 1.0;
   }
+  const auto *bridges = pair->liquid_bridges();
+  for (int k = 0; bridges && k < bridges->size(); k++) {
+    to[bridges->i[k]] += 1.0;
+    if (bridges->j[k] < atom->nlocal || force->newton_pair) to[bridges->j[k]] += 1.0;
+  }
 }
 
 // Ghosts of a sheared periodic box move relative to their owners, as CommBrick does it for v.
@@ -204,12 +266,12 @@ void FixContactHistory::unpack_forward_comm(int n, int first, double *buf)
 
 /* ----------------------------------------------------------------------
    the neighbour list compares distances with sums of radii: for the time of its build all particles
-   are larger by half the longest neck, so that no neck is lost, whatever the skin
+   are larger by half the longest neck or bridge, so that none is lost, whatever the skin
 ------------------------------------------------------------------------- */
 
 void FixContactHistory::pre_neighbor()
 {
-  radius_growth = 0.5 * pair->longest_neck();
+  radius_growth = 0.5 * pair->longest_reach();
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) atom->radius[i] += radius_growth;
 }
 
@@ -217,6 +279,11 @@ void FixContactHistory::post_neighbor()
 {
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) atom->radius[i] -= radius_growth;
   pair->list_was_built();
+}
+
+void FixContactHistory::before_storing()
+{
+  settle_liquid();
 }
 
 /* ----------------------------------------------------------------------
@@ -228,15 +295,21 @@ void FixContactHistory::store_contacts()
   const auto &contacts = pair->closed_contacts();
   const tagint *tag = atom->tag;
   const int nlocal = atom->nlocal;
+  const bool planar = pair->planar();
   store.clear_range(0, nlocal + atom->nghost);
   for (int i = 0; i < nlocal; i++) store.set_owner(i, tag[i]);
-  for (int k = 0; k < contacts.size(); k++) {
-    const int i = contacts.i[k], j = contacts.j[k];
-    const auto history = contacts.history_of(k);
-    store.add(i, tag[j], history);
-    if (j < nlocal || force->newton_pair) store.add(j, tag[i], history.swapped(pair->planar()));
-  }
-  if (force->newton_pair) send_to_owners();
+  auto keep = [&](auto &records, int i, int j, const auto &memory) {
+    records.add(i, tag[j], memory);
+    if (j < nlocal || force->newton_pair) records.add(j, tag[i], memory.swapped(planar));
+  };
+  for (int k = 0; k < contacts.size(); k++)
+    keep(store.contacts, contacts.i[k], contacts.j[k], contacts.history_of(k));
+  if (force->newton_pair) send_to_owners(store.contacts);
+  const auto *bridges = pair->liquid_bridges();
+  if (!bridges) return;
+  for (int k = 0; k < bridges->size(); k++)
+    keep(store.bridges, bridges->i[k], bridges->j[k], bridges->memory(k));
+  if (force->newton_pair) send_to_owners(store.bridges);
 }
 
 /* ----------------------------------------------------------------------
@@ -276,13 +349,15 @@ void FixContactHistory::setup_pre_exchange()
    tiled decompositions need; a ghost that passes on another rank's contacts has more rounds to go
 ------------------------------------------------------------------------- */
 
-void FixContactHistory::send_to_owners()
+template <class Records> void FixContactHistory::send_to_owners(Records &records)
 {
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  sending = std::is_same_v<Records, PartnerRecords<apf::BridgeMemory>> ? Sent::BRIDGES
+                                                                       : Sent::CONTACTS;
   sent.assign(nall, 0);
   while (true) {
     int left = 0;
-    for (int i = nlocal; i < nall; i++) left = MAX(left, store.count(i) - sent[i]);
+    for (int i = nlocal; i < nall; i++) left = MAX(left, records.count(i) - sent[i]);
     MPI_Allreduce(MPI_IN_PLACE, &left, 1, MPI_INT, MPI_MAX, world);
     if (left == 0) return;
     comm->reverse_comm(this);
@@ -295,14 +370,19 @@ int FixContactHistory::pack_reverse_comm(int n, int first, double *buf)
     std::copy_n(&(*carried)[columns * first], columns * n, buf);
     return columns * n;
   }
-  int m = 0;
-  for (int i = first; i < first + n; i++) {
-    const bool some = sent[i] < store.count(i);
-    buf[m] = some;
-    if (some) store.pack_record(i, sent[i]++, buf + m + 1);
-    m += comm_reverse;
-  }
-  return m;
+  auto pack = [&](const auto &records) {
+    for (int k = 0; k < n; k++, buf += comm_reverse) {
+      const int i = first + k;
+      const bool some = sent[i] < records.count(i);
+      buf[0] = some;
+      if (some) records.pack_record(i, sent[i]++, buf + 1);
+    }
+  };
+  if (sending == Sent::CONTACTS)
+    pack(store.contacts);
+  else
+    pack(store.bridges);
+  return n * comm_reverse;
 }
 
 void FixContactHistory::unpack_reverse_comm(int n, int *list, double *buf)
@@ -312,6 +392,11 @@ void FixContactHistory::unpack_reverse_comm(int n, int *list, double *buf)
       for (int c = 0; c < columns; c++) (*carried)[columns * list[k] + c] += *buf++;
     return;
   }
-  for (int k = 0; k < n; k++)
-    if (buf[k * comm_reverse] > 0.0) store.unpack_record(list[k], buf + k * comm_reverse + 1);
+  for (int k = 0; k < n; k++, buf += comm_reverse) {
+    if (buf[0] == 0.0) continue;
+    if (sending == Sent::CONTACTS)
+      store.contacts.unpack_record(list[k], buf + 1);
+    else
+      store.bridges.unpack_record(list[k], buf + 1);
+  }
 }

@@ -34,6 +34,7 @@ class FixContactHistory : public FixContacts {
   void find_approaching(apf::LookAhead &) override;
   bool find_near(apf::LookAhead &) override;
   void find_stiffest(apf::Stiffest &) override;
+  void settle_bridges() override;
   void sub_step(const apf::ContactTimes &) override;
   double contacts_here() const override;
   double longest_neck() const;
@@ -44,7 +45,28 @@ class FixContactHistory : public FixContacts {
   void serve(class PairGranularAdhesive *style) { pair = style; }
 
   // history of atom i's contact with the atom of that ID at the last rebuild; nullptr if none
-  const apf::ContactHistory *find(int i, tagint partner) const { return store.find(i, partner); }
+  const apf::ContactHistory *find(int i, tagint partner) const
+  {
+    return store.contacts.find(i, partner);
+  }
+  const apf::BridgeMemory *find_bridge(int i, tagint partner) const
+  {
+    return store.bridges.find(i, partner);
+  }
+
+  // Liquid on particles, where bridges take theirs from there. Ranks see what others have taken or
+  // given when it is settled, at each particle step: then all bridges of a particle that together
+  // took more than it had get the same part of what they asked for.
+  void keep_liquid() { store.keep_liquid(); }
+  bool keeps_liquid() const { return store.keeps_liquid(); }
+  double *all_liquid() { return store.liquid.data(); }      // of local atoms
+  double liquid(int i) const { return store.liquid[i]; }    // of local and ghost atoms
+  void begin_liquid(int i, double volume);                  // of a new atom; else nothing
+  void take_liquid(int i, double volume) { account(i)[0] += volume; }
+  void give_liquid(int i, double volume) { account(i)[1] += volume; }
+  double granted(int i) const { return settled[2 * i + 1]; }    // of what was taken     [-]
+  void settle_liquid();                                         // collective
+  void share_liquid();    // tells ghosts, and new atoms; collective
 
   // Counts contacts, with particles and walls, where some were made or have ended on any rank since
   // the last count; returns whether so. Collective.
@@ -68,6 +90,7 @@ class FixContactHistory : public FixContacts {
 
  protected:
   void store_contacts() override;
+  void before_storing() override;
   void add_counts(double *) override;
   bool stores_alone() const override;
   void collect_due(std::vector<double> &) override;
@@ -86,8 +109,20 @@ class FixContactHistory : public FixContacts {
   bigint times_counted = 0;
   std::vector<int> sent;    // records that each ghost has sent to its owner
 
+  std::vector<double> accounts;    // [local and ghost atoms][taken, given] since settled
+  std::vector<double> settled;     // [local and ghost atoms][liquid, part granted]
+  bool liquid_moved = false;       // on this rank, since settled
+  double *account(int i)
+  {
+    liquid_moved = true;
+    if (accounts.empty()) accounts.assign(2 * store.liquid.size(), 0.0);
+    return &accounts[2 * i];
+  }
+  void tell_ghosts();
+
   void give_to_owners(std::vector<double> &, int columns);
-  void send_to_owners();
+  template <class Records> void send_to_owners(Records &);
+  enum class Sent { CONTACTS, BRIDGES } sending = Sent::CONTACTS;
   static double at(const std::vector<double> &numbers, int i)    // 0 before the first count
   {
     return i < static_cast<int>(numbers.size()) ? numbers[i] : 0.0;

@@ -133,7 +133,10 @@ double FixContacts::step_of_level() const
 
 void FixContacts::pre_exchange()
 {
-  if (!stored) store_contacts();
+  if (!stored) {
+    before_storing();
+    store_contacts();
+  }
   stored = true;
   maxexchange = UsedVelocity::size + store.max_size(atom->nlocal);
 }
@@ -185,7 +188,7 @@ void FixContacts::copy_arrays(int i, int j, int /*delflag*/)
 
 void FixContacts::set_arrays(int i)
 {
-  store.clear(i);
+  store.insert(i);
   velocities.insert(i);
 }
 
@@ -197,7 +200,7 @@ int FixContacts::pack_exchange(int i, double *buf)
 
 int FixContacts::unpack_exchange(int i, double *buf)
 {
-  store.clear(i);
+  store.insert(i);
   const int m = velocities.unpack(i, buf);
   const int n = store.unpack(i, buf + m);
   maxexchange = MAX(maxexchange, m + n);    // the atom may go on to another rank as it is

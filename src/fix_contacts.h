@@ -55,6 +55,8 @@ class FixContacts : public Fix {
   // forces of all contacts onto the rows of the particles, which stand half a sub-step before the
   // positions; contacts are made and ended
   virtual void sub_step(const apf::ContactTimes &) = 0;
+  // bridges formed since liquid was settled last get no more of it than there was
+  virtual void settle_bridges() {}
   virtual double contacts_here() const = 0;      // of this rank; shared ones count by halves
   bigint late_so_far() const { return late; }    // first seen deeper than a step can bring them
 
@@ -74,6 +76,7 @@ class FixContacts : public Fix {
 
   void register_with_atoms();    // last act of a derived class's constructor
 
+  virtual void before_storing() {}    // collective
   virtual void store_contacts() = 0;
   virtual void add_counts(double *counts) = 0;          // contacts of each local and ghost atom
   virtual bool stores_alone() const { return true; }    // without communication

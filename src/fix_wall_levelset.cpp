@@ -28,16 +28,17 @@ static constexpr const char *command = "Fix wall/levelset";
 /* ---------------------------------------------------------------------- */
 
 FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
-    FixContacts(lmp, narg, arg), motion(lmp), kernel(nullptr), rows(domain->dimension == 2)
+    FixContacts(lmp, narg, arg), motion(lmp), kernel(nullptr), rows(domain->dimension == 2),
+    bridges(lmp, this)
 {
   check_spheres(lmp, command, 2);
   scalar_flag = 1;
   vector_flag = 1;
-  size_vector = 9;
+  size_vector = 12;
   global_freq = 1;
   extscalar = 1;
   extvector = -1;    // forces and torques are extensive, counts are not to be divided by atoms
-  extlist = new int[9]{1, 1, 1, 1, 1, 1, 0, 0, 0};
+  extlist = new int[12]{1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1};
   energy_global_flag = 1;
   virial_global_flag = virial_peratom_flag = 1;
   respa_level_support = 1;
@@ -60,10 +61,8 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
     } else if (strcmp(arg[iarg], "zone") == 0) {
       ledger.parse(command, names, narg, arg, iarg);
     } else {
-      error->all(FLERR, iarg,
-                 "{} keyword {} is unknown; known are damping, sliding, twisting, rolling, "
-                 "break, scale_stiffness, move, resolution, zone",
-                 command, arg[iarg]);
+      error->all(FLERR, iarg, "{} keyword {} is unknown; known are {}, move, resolution, zone",
+                 command, arg[iarg], contact_keywords);
     }
   }
   ledger.complete(names, grid.get());
@@ -71,6 +70,7 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   size_array_rows = ledger.n_zones() + 1;
   size_array_cols = WallLedger::N_COLUMNS;
   extarray = 0;    // for the counts in it
+  wet = coefficient.bridge.present();
   choice.planar = domain->dimension == 2;
   choice.include(coefficient.model);
   kernel = apf::contact_kernel(choice);
@@ -114,6 +114,8 @@ void FixWallLevelset::init()
     if (!utils::strmatch(update->integrate_style, "^respa") || history->level() == level())
       lender = history;
   }
+
+  if (wet) bridges.init();
 
   // the smallest and lightest particle decides about overlap and time step
   double inverse[3] = {0.0, 0.0, 0.0}, smallest[3];
@@ -220,14 +222,23 @@ void FixWallLevelset::post_force(int vflag)
   motion.pose.advance(times.advance);
   contacts_change();
   const int before = contacts.size();
+  if (wet) bridges.detect(times.advance);
   detect();
   follow_curvature();
   share_masses();
   const bool goes_on = !due.empty();
   const int ended = add_forces(times, before);
-  tally(vflag);
+  const int ruptured = wet ? bridges.add_forces(times, due) : 0;
+  ledger.clear_loads();
+  loads_summed = settled = false;
+  tally(rows, contacts.source, surface_of);
+  if (wet) {
+    return_loads(bridges.copies(), bridges.atoms());
+    tally(bridges.copies(), bridges.atoms(), bridges.surfaces());
+  }
   if (goes_on) add_due();
   if (ended) remove_ended(false);
+  if (ruptured) bridges.remove_ruptured(false);
   motion.take_speeds();
 }
 
@@ -326,14 +337,15 @@ void FixWallLevelset::share_masses()
     bodies.crowding = crowding(i);
     contacts.set_crowding(k, bodies);
   }
+  if (wet) bridges.share_masses();
 }
 
-// contacts of an atom, with particles and with this wall
+// contacts of an atom, with particles and with this wall, and bridges
 double FixWallLevelset::crowding(int i) const
 {
   double n = lender ? lender->pair_count(i) : 0.0;
   for (unsigned bits = touched[i]; bits; bits >>= 1) n += bits & 1;
-  return n;
+  return n + (wet ? bridges.count(i) : 0.0);
 }
 
 // Normals of walls whose curvature is not the same everywhere turn as fast as that where a particle
@@ -353,6 +365,7 @@ void FixWallLevelset::add_counts(double *counts)
 {
   if (rebuild) find_again();
   for (int i : contacts.source) counts[i] += 1.0;
+  if (wet) bridges.add_counts(counts);
 }
 
 void FixWallLevelset::remove_ended(bool in_sub_step)
@@ -397,28 +410,29 @@ Marks FixWallLevelset::zones_of(int i)
 
 void FixWallLevelset::gather()
 {
-  const auto &from = particles();
   const int n = contacts.size();
   rows.resize(2 * n);
-  for (int k = 0; k < n; k++) {
-    const int i = contacts.source[k];
-    double x[3];
-    from.position(i, x);
-    const auto foot = foot_of(surface_of[k], x);
-    if (foot.distance <= 0.0 || !foot.exists)
-      error->one(
-          FLERR, Error::NOLASTLINE,
-          "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
-          command, id, atom->tag[i]);
-    rows.copy_row(from, i, 2 * k);
-    rows.place(2 * k + 1, foot.at);
-    if (motion.pose.moves) {
-      const auto v = motion.pose.velocity_at(foot.at), &w = motion.pose.spin;
-      const double v_wall[3] = {v.x, v.y, v.z}, spin[3] = {w.x, w.y, w.z};
-      rows.set_motion(2 * k + 1, v_wall, spin);
-    }
-  }
+  for (int k = 0; k < n; k++) copy_rows(rows, k, contacts.source[k], surface_of[k]);
   rows.clear_loads(0, 2 * n);
+}
+
+// rows 2k and 2k+1: a particle and its foot point on a surface
+void FixWallLevelset::copy_rows(apf::Bodies &to, int k, int i, int surface)
+{
+  const auto &from = particles();
+  double x[3];
+  from.position(i, x);
+  const auto foot = foot_of(surface, x);
+  if (foot.distance <= 0.0 || !foot.exists)
+    error->one(FLERR, Error::NOLASTLINE,
+               "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
+               command, id, atom->tag[i]);
+  to.copy_row(from, i, 2 * k);
+  to.place(2 * k + 1, foot.at);
+  if (!motion.pose.moves) return;
+  const auto v = motion.pose.velocity_at(foot.at), &w = motion.pose.spin;
+  const double v_wall[3] = {v.x, v.y, v.z}, spin[3] = {w.x, w.y, w.z};
+  to.set_motion(2 * k + 1, v_wall, spin);
 }
 
 // Forces of all contacts, those from number `made` on being new; returns how many have ended.
@@ -437,7 +451,7 @@ int FixWallLevelset::add_forces(const apf::ContactTimes &times, int made)
   for (const auto &load : of_rows)
     if (load.row % 2 == 0)
       due.push_back({contacts.source[load.row / 2], {load.f[0], load.f[1], load.f[2]}});
-  return_loads();
+  return_loads(rows, contacts.source);
   return ended;
 }
 
@@ -466,28 +480,27 @@ void FixWallLevelset::add_due()
 }
 
 // what the wall exerts on particles goes to their rows
-void FixWallLevelset::return_loads()
+void FixWallLevelset::return_loads(const apf::Bodies &from, const std::vector<int> &atoms)
 {
   auto &to = particles();
-  for (int k = 0; k < contacts.size(); k++) {
+  for (int k = 0; k < static_cast<int>(atoms.size()); k++) {
     double f[3] = {}, torque[3] = {};
-    rows.add_load_to(2 * k, f, torque);
-    to.add_load(contacts.source[k], f, torque);
+    from.add_load_to(2 * k, f, torque);
+    to.add_load(atoms[k], f, torque);
   }
 }
 
 // ... and to LAMMPS: forces on particles and on the wall, virial
-void FixWallLevelset::tally(int vflag)
+void FixWallLevelset::tally(const apf::Bodies &from, const std::vector<int> &atoms,
+                            const std::vector<int> &surfaces_of)
 {
-  ledger.clear_loads();
-  loads_summed = settled = false;
-  for (int k = 0; k < contacts.size(); k++) {
-    const int i = contacts.source[k];
+  for (int k = 0; k < static_cast<int>(atoms.size()); k++) {
+    const int i = atoms[k];
     double f[3] = {}, torque[3] = {}, on_wall[3] = {}, moment[3] = {}, foot[3];
-    rows.add_load_to(2 * k, f, torque);
-    rows.add_load_to(2 * k + 1, on_wall, moment);
-    rows.position(2 * k + 1, foot);
-    auto &loads = ledger.load(ledger.zone_of(surface_of[k], foot));
+    from.add_load_to(2 * k, f, torque);
+    from.add_load_to(2 * k + 1, on_wall, moment);
+    from.position(2 * k + 1, foot);
+    auto &loads = ledger.load(ledger.zone_of(surfaces_of[k], foot));
     for (int c = 0; c < 3; c++) {
       atom->f[i][c] += f[c];
       atom->torque[i][c] += torque[c];
@@ -512,6 +525,7 @@ void FixWallLevelset::tally(int vflag)
 
 void FixWallLevelset::find_fastest(apf::LookAhead &ahead)
 {
+  if (wet) bridges.find_fastest(ahead);
   if (contacts.size() == 0) return;
   gather();    // contacts may have ended since the last forces
   rows.with_rows([&](const auto *r) {
@@ -542,6 +556,7 @@ void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
       }
     }
   }
+  if (wet) bridges.find_approaching(ahead);
 }
 
 // How a particle moves against the wall's material; where there is no foot, as if straight at it.
@@ -580,6 +595,7 @@ bool FixWallLevelset::find_near(apf::LookAhead &ahead)
       near.push_back({candidate.i, candidate.surface});
   }
   perhaps.resize(left);
+  if (wet) bridges.find_near(ahead);
   return false;
 }
 
@@ -588,9 +604,20 @@ void FixWallLevelset::sub_step(const apf::ContactTimes &times)
   motion.pose.advance(times.advance);
   const int before = contacts.size();
   for (const auto &[i, s] : near) touch(i, s);
+  if (wet) bridges.sub_detect(times.advance);
   const int ended = add_forces(times, before);
+  if (wet) {
+    const int ruptured = bridges.add_forces(times, due);
+    return_loads(bridges.copies(), bridges.atoms());
+    if (ruptured) bridges.remove_ruptured(true);
+  }
   contacts_change();
   if (ended) remove_ended(true);
+}
+
+void FixWallLevelset::settle_bridges()
+{
+  if (wet) bridges.settle();
 }
 
 void FixWallLevelset::find_stiffest(apf::Stiffest &stiffest)
@@ -607,17 +634,24 @@ void FixWallLevelset::find_stiffest(apf::Stiffest &stiffest)
     stiffest.include_near(kinds.find(s, coefficient.model, bodies).mode,
                           approach_of(i, foot_of(s, x)));
   }
+  if (wet) bridges.find_stiffest(stiffest);
 }
 
 /* ----------------------------------------------------------------------
    contacts through a rebuild of the neighbour list: partner = number of the surface
 ------------------------------------------------------------------------- */
 
+void FixWallLevelset::before_storing()
+{
+  if (wet && lender) lender->settle_liquid();
+}
+
 void FixWallLevelset::store_contacts()
 {
   store.clear_range(0, atom->nlocal);
   for (int k = 0; k < contacts.size(); k++)
-    store.add(contacts.source[k], surface_of[k], contacts.history_of(k));
+    store.contacts.add(contacts.source[k], surface_of[k], contacts.history_of(k));
+  if (wet) bridges.store_into(store);
 }
 
 void FixWallLevelset::post_neighbor()
@@ -632,9 +666,10 @@ void FixWallLevelset::find_again()
   contacts.clear();
   surface_of.clear();
   std::fill(touched.begin(), touched.end(), 0u);
+  if (wet) bridges.find_again();
   for (int i = 0; i < atom->nlocal; i++)
     for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
-      if (const auto *history = store.find(i, s)) close(i, s, *history);
+      if (const auto *history = store.contacts.find(i, s)) close(i, s, *history);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -670,22 +705,28 @@ double FixWallLevelset::compute_scalar()
     for (const auto &p : parts)
       energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
   }
+  if (wet) energy += bridges.energy();
   double all;
   MPI_Allreduce(&energy, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }
 
-// force 3, torque about the origin 3, contacts, contacts begun, contacts ended
+// force 3, torque about the origin 3, contacts, contacts begun, contacts ended, bridges, liquid in
+// them, liquid left on the wall
 double FixWallLevelset::compute_vector(int n)
 {
   if (!loads_summed) {
-    double mine[9];
+    before_storing();
+    double mine[12];
     const auto loads = ledger.total_load();
     std::copy(loads.begin(), loads.end(), mine);
     mine[6] = contacts.size();
     mine[7] = captured;
     mine[8] = detached;
-    MPI_Allreduce(mine, all_loads, 9, MPI_DOUBLE, MPI_SUM, world);
+    mine[9] = bridges.size();
+    mine[10] = bridges.liquid_held();
+    mine[11] = bridges.liquid;
+    MPI_Allreduce(mine, all_loads, 12, MPI_DOUBLE, MPI_SUM, world);
     loads_summed = true;
   }
   return all_loads[n];
@@ -712,11 +753,11 @@ std::vector<WallTouch> FixWallLevelset::touches()
 
 std::vector<double> FixWallLevelset::global_state() const
 {
-  double mine[2] = {captured, detached}, all[2];
-  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
-  std::vector<double> state = {all[0], all[1], motion.pose.moves ? 1.0 : 0.0};
-  state.resize(3 + apf::WallPose::state_size);
-  motion.pose.write(&state[3]);
+  double mine[3] = {captured, detached, bridges.liquid}, all[3];
+  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
+  std::vector<double> state = {all[0], all[1], all[2], motion.pose.moves ? 1.0 : 0.0};
+  state.resize(4 + apf::WallPose::state_size);
+  motion.pose.write(&state[4]);
   const auto of_zones = ledger.state();
   state.insert(state.end(), of_zones.begin(), of_zones.end());
   return state;
@@ -727,21 +768,26 @@ void FixWallLevelset::set_global_state(const double *state)
   if (comm->me == 0) {    // counts are sums over ranks
     captured = state[0];
     detached = state[1];
+    bridges.liquid = state[2];
   }
-  if (state[2] != 0.0 && motion.pose.moves) motion.pose.read(state + 3);
-  ledger.set_state(state + 3 + apf::WallPose::state_size, fmt::format("{} {}", command, id));
+  if (state[3] != 0.0 && motion.pose.moves) motion.pose.read(state + 4);
+  ledger.set_state(state + 4 + apf::WallPose::state_size, fmt::format("{} {}", command, id));
 }
 
 /* ----------------------------------------------------------------------
-   "wall_contacts": int[nlocal], closed contacts of each atom with this wall
+   "wall_contacts": int[nlocal], closed contacts of each atom with this wall, or bridges without
+   "wall_bridges": int[nlocal]; "wall_liquid": double[nlocal], the atom's share in these bridges
 ------------------------------------------------------------------------- */
 
 void *FixWallLevelset::extract(const char *name, int &dim)
 {
   dim = 1;
+  if (strcmp(name, "wall_bridges") == 0) return wet ? bridges.counts_of_atoms() : nullptr;
+  if (strcmp(name, "wall_liquid") == 0) return wet ? bridges.liquid_of_atoms() : nullptr;
   if (strcmp(name, "wall_contacts") != 0) return nullptr;
   count_of_atom.assign(atom->nmax, 0);
   for (int i : contacts.source) count_of_atom[i]++;
+  if (wet) bridges.count_where_dry_contact_is_not(count_of_atom);
   return count_of_atom.data();
 }
 
@@ -760,7 +806,7 @@ int FixWallLevelset::image(int *&objects, double **&values)
 
 double FixWallLevelset::memory_usage()
 {
-  return FixContacts::memory_usage() + contacts.memory_usage() +
+  return FixContacts::memory_usage() + contacts.memory_usage() + bridges.memory_usage() +
       touched.capacity() * sizeof(unsigned) + rows.memory_usage() +
       (grid ? grid->memory_usage() : 0.0);
 }

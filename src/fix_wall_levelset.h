@@ -11,6 +11,7 @@ FixStyle(wall/levelset,FixWallLevelset);
 
 #include "contact/contact_kernel.h"
 #include "contact_keywords.h"
+#include "wall_bridges.h"
 #include "wall_ledger.h"
 #include "wall_motion.h"
 #include "wall_surfaces.h"
@@ -45,6 +46,7 @@ class FixWallLevelset : public FixContacts {
   double distance(const double *x) const;    // > 0 in the fluid; of the nearest surface
   double contacts_here() const override { return contacts.size(); }
   void find_stiffest(apf::Stiffest &) override;
+  void settle_bridges() override;
 
   // ---- for compute wall/deposit
   WallLedger &zones() { return ledger; }
@@ -55,6 +57,7 @@ class FixWallLevelset : public FixContacts {
 
  protected:
   void store_contacts() override;
+  void before_storing() override;
   void add_counts(double *) override;
   int level() const override;
   std::vector<double> global_state() const override;
@@ -87,12 +90,16 @@ class FixWallLevelset : public FixContacts {
   std::vector<Perhaps> perhaps;    // ... if another strikes them
   apf::ContactKinds kinds;
 
+  WallBridges bridges;
+  bool wet = false;    // the wall has bridges
+  friend class WallBridges;
+
   bool rebuild = true;
   class FixContactHistory *lender = nullptr;    // has the particles' rows already: pair's fix
   class Fix *rigid = nullptr;
   double captured = 0.0, detached = 0.0;    // contacts begun and ended, of this rank
   WallLedger ledger{lmp, surfaces};         // force and torque on zones of the wall
-  double all_loads[9] = {};                 // the same over all ranks, contacts, begun, ended
+  double all_loads[12] = {};    // the same over all ranks, contacts, begun, ended, bridges, liquid
   bool loads_summed = false, settled = false;
   std::unique_ptr<ComputeAggregateContact> aggregates;
   std::vector<int> count_of_atom;    // for other styles: contacts of each atom
@@ -118,10 +125,11 @@ class FixWallLevelset : public FixContacts {
   int zone_of(int i, int surface);
   Marks zones_of(int i);
   void gather();
+  void copy_rows(apf::Bodies &, int k, int i, int surface);
   int add_forces(const apf::ContactTimes &, int made);
   void add_due();
-  void return_loads();
-  void tally(int vflag);
+  void return_loads(const apf::Bodies &, const std::vector<int> &atoms);
+  void tally(const apf::Bodies &, const std::vector<int> &atoms, const std::vector<int> &surfaces);
 };
 
 }    // namespace LAMMPS_NS

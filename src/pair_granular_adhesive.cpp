@@ -23,12 +23,13 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr int n_parts = 11;      // values per pair that single() offers
-static constexpr int n_energies = 4;    // energies by part that compute pair offers
+static constexpr int n_contact_parts = 11;
+static constexpr int n_parts = n_contact_parts + 6;    // values per pair that single() offers
+static constexpr int n_energies = 5;                   // energies by part that compute pair offers
 
 /* ---------------------------------------------------------------------- */
 
-PairGranularAdhesive::PairGranularAdhesive(LAMMPS *lmp) : Pair(lmp)
+PairGranularAdhesive::PairGranularAdhesive(LAMMPS *lmp) : Pair(lmp), bridges(lmp, this)
 {
   single_enable = 1;
   single_extra = n_parts;
@@ -80,6 +81,10 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   bodies.clear_loads(0, atom->nlocal + atom->nghost);
   const double no_torque[3] = {};
   for (const auto &load : store->due) bodies.add_load(load.row, load.f, no_torque);
+  if (wet) {
+    store->settle_liquid();
+    bridges.detect(true, times.advance);
+  }
   // contacts open with first touch and end with the neck
   detect(true, times.advance);
   if (store->count_contacts()) share_masses();
@@ -87,6 +92,9 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
   const int ended = kernel(contacts, bodies, times, tallied ? parts.data() : nullptr);
+  if (wet && tallied) bridges.parts.resize(bridges.all().size());
+  const int ruptured =
+      wet ? bridges.add_forces(bodies, times, tallied ? bridges.parts.data() : nullptr) : 0;
 
   // a ghost's force belongs to another rank, which has computed it as well where newton is off
   if (ended) correct_ends(times.advance);
@@ -97,6 +105,7 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   if (tallied) tally(eflag);
   parts = {};    // memory is for steps that look at them
   if (ended) remove_ended(false);
+  if (ruptured) bridges.remove_ruptured(false);
   parts_step = -1;
 }
 
@@ -135,6 +144,7 @@ void PairGranularAdhesive::find_fastest(apf::LookAhead &ahead)
       return ahead.acceleration[contacts.i[k]] + ahead.acceleration[contacts.j[k]];
     }));
   });
+  if (wet) bridges.find_fastest(ahead);
 }
 
 void PairGranularAdhesive::find_approaching(apf::LookAhead &ahead)
@@ -142,6 +152,13 @@ void PairGranularAdhesive::find_approaching(apf::LookAhead &ahead)
   store->bodies().with_rows([&](const auto *rows) {
     candidates.find_approaching(rows, ahead);
   });
+  if (wet) bridges.find_approaching(ahead, candidates.near);
+}
+
+bool PairGranularAdhesive::find_near(apf::LookAhead &ahead)
+{
+  const bool any = candidates.find_near(ahead);
+  return (wet && bridges.find_near(ahead)) || any;
 }
 
 void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
@@ -156,16 +173,22 @@ void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
       stiffest.include_near(kind_of(i, j).mode, approach);
     }
   });
+  if (wet) bridges.find_stiffest(stiffest);
 }
 
 // Masses are shared anew at the next particle step; contacts made until then count their bodies'
 // contacts as they were, so that ranks agree.
 void PairGranularAdhesive::sub_step(const apf::ContactTimes &times)
 {
+  if (wet) bridges.detect(false, times.advance);
   detect(false, times.advance);
-  if (!kernel(contacts, store->bodies(), times, nullptr)) return;
-  correct_ends(times.advance);
-  remove_ended(true);
+  const int ended = kernel(contacts, store->bodies(), times, nullptr);
+  const int ruptured = wet ? bridges.add_forces(store->bodies(), times, nullptr) : 0;
+  if (ended) {
+    correct_ends(times.advance);
+    remove_ended(true);
+  }
+  if (ruptured) bridges.remove_ruptured(true);
 }
 
 /* ----------------------------------------------------------------------
@@ -178,6 +201,11 @@ void PairGranularAdhesive::build_candidates()
   const tagint *tag = atom->tag;
   candidates.clear();
   contacts.clear();
+  if (wet) {
+    bridges.fill_new_atoms();
+    store->share_liquid();
+    bridges.begin_list();
+  }
 
   for (int ii = 0; ii < list->inum; ii++) {
     const int i = list->ilist[ii];
@@ -188,6 +216,7 @@ void PairGranularAdhesive::build_candidates()
       const int k = candidates.add(i, j, radius[i] + radius[j]);
       const auto *history = store->find(i, tag[j]);
       if (history) close(k, *history);
+      if (wet) bridges.add_candidate(i, j);
     }
   }
   rebuild = false;
@@ -202,6 +231,11 @@ void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
   contacts.set_crowding(added, bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0));
   candidates.closed[k] = 1;
   store->count_anew();
+}
+
+const ContactCoeff &PairGranularAdhesive::coeff_of(int i, int j) const
+{
+  return coefficients[atom->type[i]][atom->type[j]];
 }
 
 const apf::ContactKind &PairGranularAdhesive::kind_of(int i, int j)
@@ -245,6 +279,7 @@ void PairGranularAdhesive::share_masses()
     const int i = contacts.i[k], j = contacts.j[k];
     contacts.set_crowding(k, bodies_of(i, j, store->count(i), store->count(j)));
   }
+  if (wet) bridges.share_masses();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -280,16 +315,25 @@ void PairGranularAdhesive::tally(int eflag)
   for (int k = 0; k < contacts.size(); k++) {
     const auto &p = parts[k];
     const int i = contacts.i[k], j = contacts.j[k];
-    const double energies[n_energies] = {p.elastic_energy, p.sliding_energy, p.rolling_energy,
-                                         p.twisting_energy};
+    const double energies[] = {p.elastic_energy, p.sliding_energy, p.rolling_energy,
+                               p.twisting_energy};
     // with newton off both ranks of a pair count it, each half
     const double share = (force->newton_pair || j < atom->nlocal) ? 1.0 : 0.5;
     double energy = 0.0;
-    for (int n = 0; n < n_energies; n++) {
+    for (int n = 0; n < 4; n++) {
       pvector[n] += share * energies[n];
       energy += energies[n];
     }
     ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, eflag ? energy : 0.0, 0.0, p.force[0],
+                 p.force[1], p.force[2], x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]);
+  }
+  if (!wet) return;
+  const auto &all = bridges.all();
+  for (int k = 0; k < all.size(); k++) {
+    const auto &p = bridges.parts[k];
+    const int i = all.i[k], j = all.j[k];
+    pvector[4] += p.energy * ((force->newton_pair || j < atom->nlocal) ? 1.0 : 0.5);
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, eflag ? p.energy : 0.0, 0.0, p.force[0],
                  p.force[1], p.force[2], x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]);
   }
 }
@@ -330,10 +374,8 @@ void PairGranularAdhesive::coeff(int narg, char **arg)
   int iarg = 2;
   const auto coeff = parse_contact(lmp, "Pair granular/adhesive", narg, arg, iarg, offset);
   if (iarg < narg)
-    error->all(FLERR, iarg + offset,
-               "Pair granular/adhesive keyword {} is unknown; known are damping, "
-               "sliding, twisting, rolling, break, scale_stiffness",
-               arg[iarg]);
+    error->all(FLERR, iarg + offset, "Pair granular/adhesive keyword {} is unknown; known are {}",
+               arg[iarg], contact_keywords);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
@@ -390,10 +432,12 @@ void PairGranularAdhesive::init_style()
     store = dynamic_cast<FixContactHistory *>(
         modify->replace_fix(id_store + "_PLACE", id_store + " all contact/history", 1));
     store->serve(this);
+    bridges.serve(store);
   }
   sizes = TypeSizes::find(lmp, "Pair granular/adhesive");
   check_scene(lmp, "Pair granular/adhesive", 2.0 * sizes.largest_radius());
-  neck_max = 0.0;    // init_one finds it
+  neck_max = reach_max = 0.0;    // init_one finds them
+  wet = false;
   kinds.forget();
   choice = apf::KernelChoice();
   choice.planar = domain->dimension == 2;
@@ -417,6 +461,8 @@ double PairGranularAdhesive::init_one(int i, int j)
   if (any == 0.0) return 0.0;
   const double neck = model.normal(ri * rj / (ri + rj)).pulloff_overlap();
   neck_max = MAX(neck_max, neck);
+  const double reach = MAX(neck, init_bridge(i, j, ri, rj));
+  reach_max = MAX(reach_max, reach);
   if (sizes.radius_max[i] > 0.0 && sizes.radius_max[j] > 0.0) {
     // the smaller particle sinks deepest into the largest one
     const std::string who = fmt::format("Pair granular/adhesive types {} {}", i, j);
@@ -427,7 +473,23 @@ double PairGranularAdhesive::init_one(int i, int j)
     else
       check_overlap(lmp, who, model, A * b / (A + b), b);
   }
-  return ri + rj + neck;
+  return ri + rj + reach;
+}
+
+// Returns how far bridges between two types reach.
+double PairGranularAdhesive::init_bridge(int i, int j, double ri, double rj)
+{
+  const auto &model = coefficients[i][j].bridge;
+  if (!model.present()) return 0.0;
+  wet = true;
+  if (model.inventory()) {
+    if (!force->newton_pair)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair granular/adhesive keyword inventory needs newton on: a bridge across ranks "
+                 "takes its liquid once");
+    store->keep_liquid();
+  }
+  return model.longest(MIN(ri, rj));
 }
 
 /* ----------------------------------------------------------------------
@@ -436,6 +498,14 @@ double PairGranularAdhesive::init_one(int i, int j)
 
 void PairGranularAdhesive::setup()
 {
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = 1; j <= atom->ntypes; j++)
+      if (store->keeps_liquid() && coefficients[i][j].bridge.present() &&
+          !coefficients[i][j].bridge.inventory())
+        error->all(FLERR, Error::NOLASTLINE,
+                   "Pair granular/adhesive keyword inventory must be given for all pairs of types "
+                   "with bridges or for none; types {} {} have none",
+                   i, j);
   if (store->step_is_given())
     check_timestep(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());
 }
@@ -542,6 +612,7 @@ void PairGranularAdhesive::evaluate_parts()
   for (int k = 0; k < contacts.size(); k++)
     index_of_pair[(static_cast<uint64_t>(contacts.i[k]) << 32) |
                   static_cast<uint32_t>(contacts.j[k])] = k;
+  if (wet) bridges.evaluate(store->last_times());
 }
 
 double PairGranularAdhesive::single(int i, int j, int, int, double rsq, double, double,
@@ -550,6 +621,11 @@ double PairGranularAdhesive::single(int i, int j, int, int, double rsq, double, 
   evaluate_parts();
   fforce = 0.0;
   std::fill(svector, svector + n_parts, 0.0);
+  return single_contact(i, j, rsq, fforce) + (wet ? single_bridge(i, j, rsq, fforce) : 0.0);
+}
+
+double PairGranularAdhesive::single_contact(int i, int j, double rsq, double &fforce)
+{
   auto key = [](int a, int b) {
     return (static_cast<uint64_t>(a) << 32) | static_cast<uint32_t>(b);
   };
@@ -562,7 +638,7 @@ double PairGranularAdhesive::single(int i, int j, int, int, double rsq, double, 
   if (found == index_of_pair.end()) return 0.0;
 
   const auto &p = parts[found->second];
-  fforce = (p.elastic + p.damping) / sqrt(rsq);
+  fforce += (p.elastic + p.damping) / sqrt(rsq);
   double *out = svector;
   *out++ = p.overlap;
   *out++ = p.contact_radius;
@@ -574,12 +650,38 @@ double PairGranularAdhesive::single(int i, int j, int, int, double rsq, double, 
   return p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
 }
 
+double PairGranularAdhesive::single_bridge(int i, int j, double rsq, double &fforce)
+{
+  const auto *p = bridges.part_of(i, j);
+  double sign = 1.0;
+  if (!p) {
+    std::swap(i, j);
+    sign = -1.0;
+    p = bridges.part_of(i, j);
+  }
+  if (!p) return 0.0;
+  fforce += (p->viscous - p->capillary) / sqrt(rsq);
+  double *out = svector + n_contact_parts;
+  *out++ = p->capillary;
+  *out++ = p->viscous;
+  for (double component : p->tangential) *out++ = sign * component;
+  *out++ = bridges.volume_of(i, j);
+  return p->energy;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void *PairGranularAdhesive::extract(const char *name, int &dim)
 {
   dim = 0;
   if (strcmp(name, "contact_list") == 0) return &contacts;
+  if (strcmp(name, "bridge_list") == 0)
+    return wet ? const_cast<apf::BridgeList *>(&bridges.all()) : nullptr;
+  if (strcmp(name, "liquid") == 0) {
+    if (!store || !store->keeps_liquid()) return nullptr;
+    store->settle_liquid();    // all ranks ask for it
+    return store->all_liquid();
+  }
   return nullptr;
 }
 
@@ -587,6 +689,6 @@ void *PairGranularAdhesive::extract(const char *name, int &dim)
 
 double PairGranularAdhesive::memory_usage()
 {
-  return Pair::memory_usage() + contacts.memory_usage() + candidates.memory_usage() +
-      parts.capacity() * sizeof(apf::ContactParts);
+  return Pair::memory_usage() + bridges.memory_usage() + contacts.memory_usage() +
+      candidates.memory_usage() + parts.capacity() * sizeof(apf::ContactParts);
 }

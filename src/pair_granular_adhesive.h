@@ -12,6 +12,7 @@ PairStyle(granular/adhesive,PairGranularAdhesive);
 #include "contact/candidates.h"
 #include "contact/contact_kernel.h"
 #include "contact_keywords.h"
+#include "pair_bridges.h"
 #include "type_sizes.h"
 
 #include <unordered_map>
@@ -41,7 +42,10 @@ class PairGranularAdhesive : public Pair {
 
   // for the fix that keeps histories
   const apf::ContactList &closed_contacts() const { return contacts; }
+  const apf::BridgeList *liquid_bridges() const { return wet ? &bridges.all() : nullptr; }
+  void settle_bridges() { bridges.settle(); }
   double longest_neck() const { return neck_max; }
+  double longest_reach() const { return reach_max; }    // of necks and bridges
   bool planar() const { return choice.planar; }
   void list_was_built() { rebuild = true; }
   apf::StiffestMode stiffest_possible() const;    // of any two particles
@@ -49,9 +53,15 @@ class PairGranularAdhesive : public Pair {
   // sub-steps of a particle step, see FixContacts
   void find_fastest(apf::LookAhead &);
   void find_approaching(apf::LookAhead &);
-  bool find_near(apf::LookAhead &ahead) { return candidates.find_near(ahead); }
+  bool find_near(apf::LookAhead &);
   void find_stiffest(apf::Stiffest &);
   void sub_step(const apf::ContactTimes &);
+
+  // for its bridges; of two atoms, or of a candidate
+  const ContactCoeff &coeff_of(int i, int j) const;
+  apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
+  const apf::ContactKind &kind_of(int i, int j);
+  bool is_closed(int candidate) const { return candidates.closed[candidate]; }
 
  private:
   apf::Candidates candidates;    // pairs of the neighbour list
@@ -59,12 +69,15 @@ class PairGranularAdhesive : public Pair {
   apf::ContactKinds kinds;
   apf::KernelChoice choice;
   apf::ContactKernel kernel = nullptr;
+  PairBridges bridges;
+  bool wet = false;                                       // some coefficient has bridges
   std::vector<std::vector<ContactCoeff>> coefficients;    // [1..ntypes][1..ntypes]
 
   class FixContactHistory *store = nullptr;    // histories between rebuilds, velocities
   std::string id_store;
-  bool rebuild = true;      // neighbour list is newer than candidates
-  double neck_max = 0.0;    // longest neck of any pair of types
+  bool rebuild = true;       // neighbour list is newer than candidates
+  double neck_max = 0.0;     // longest neck of any pair of types
+  double reach_max = 0.0;    // and longest neck or bridge
   int freeze_group_bit = 0;
   class Fix *rigid = nullptr;
   std::vector<double> mass_rigid;    // of the body an atom belongs to, 0 if none
@@ -80,13 +93,14 @@ class PairGranularAdhesive : public Pair {
   void build_candidates();
   void detect(bool all, double step);
   void close(int candidate, const apf::ContactHistory &);
-  apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
-  const apf::ContactKind &kind_of(int i, int j);
   void share_masses();
   void correct_ends(double step);
+  double init_bridge(int i, int j, double ri, double rj);
   void remove_ended(bool in_sub_step);
   void tally(int eflag);
   void evaluate_parts();
+  double single_contact(int i, int j, double rsq, double &fforce);
+  double single_bridge(int i, int j, double rsq, double &fforce);
 };
 
 }    // namespace LAMMPS_NS

@@ -132,7 +132,7 @@ std::vector<Row> law_errors(const std::string &line, const std::string &command)
       {"scale_stiffness -1", {command, "scale_stiffness must be in (0, 1], got -1"}},
       {"scale_stiffness 1.5", {command, "scale_stiffness must be in (0, 1], got 1.5"}},
       {"scale_stiffness half", {"must be a number", "got half"}},
-      {"bridge 0.01 0.07 0 1e-3", {command, "bridge", "not available in this version"}},
+
   };
   for (const auto &row : keywords) table.push_back({"jkr 1e6 0.3 0.01 " + row.input, row.words});
   table.push_back({"jkr 1e6 0.3 0 rolling 0.01", {command, "rolling needs adhesion", "gamma > 0"}});

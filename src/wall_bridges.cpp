@@ -1,0 +1,331 @@
+#include "wall_bridges.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_contact_history.h"
+#include "fix_wall_levelset.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+WallBridges::WallBridges(LAMMPS *lmp, FixWallLevelset *fix) :
+    Pointers(lmp), wall(fix), rows(domain->dimension == 2)
+{
+}
+
+void WallBridges::init()
+{
+  const auto &model = wall->coefficient.bridge;
+  if (model.inventory() && !(wall->lender && wall->lender->keeps_liquid()))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix wall/levelset {} keyword inventory needs a pair style granular/adhesive with "
+               "keyword inventory, which keeps the liquid of the particles",
+               wall->id);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallBridges::find_again()
+{
+  list.clear();
+  surface_of.clear();
+  unsettled.clear();
+  joined.assign(atom->nmax, 0);
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int s = 0; s < static_cast<int>(wall->surfaces.size()); s++)
+      if (const auto *memory = wall->store.bridges.find(i, s)) add(i, s, *memory, false);
+}
+
+void WallBridges::store_into(ContactStore &store) const
+{
+  for (int b = 0; b < size(); b++) store.bridges.add(list.source[b], surface_of[b], list.memory(b));
+}
+
+void WallBridges::add_counts(double *counts) const
+{
+  for (const int i : list.source) counts[i] += 1.0;
+}
+
+double WallBridges::count(int i) const
+{
+  double n = 0.0;
+  for (unsigned bits = i < static_cast<int>(joined.size()) ? joined[i] : 0; bits; bits >>= 1)
+    n += bits & 1;
+  return n;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double WallBridges::liquid_for(int i) const
+{
+  const auto &model = wall->coefficient.bridge;
+  const double r = atom->radius[i];
+  if (!model.inventory()) return model.volume(r);
+  return std::min(model.intake * wall->lender->liquid(i), model.largest_volume(r));
+}
+
+double WallBridges::forming_distance(int i) const
+{
+  const auto &model = wall->coefficient.bridge;
+  const double r = atom->radius[i];
+  if (model.forming == apf::Forming::contact) return r;
+  return r +
+      apf::film_thickness(r, model.inventory() ? wall->lender->liquid(i) : model.liquid_of(r));
+}
+
+apf::BridgeConstants WallBridges::constants_of(int i, int surface, double volume) const
+{
+  return apf::BridgeConstants::make(wall->coefficient.bridge,
+                                    wall->bodies_of(i, surface, atom->x[i]), volume);
+}
+
+void WallBridges::add(int i, int surface, const apf::BridgeMemory &memory, bool is_new)
+{
+  const int b = list.add(0, 0, i, constants_of(i, surface, memory.volume()), memory, is_new);
+  surface_of.push_back(surface);
+  unsettled.push_back(is_new && wall->coefficient.bridge.inventory());
+  joined[i] |= 1u << surface;
+  list.set_mass(b, list.constants(b).m / (wall->crowding(i) + 1.0));
+  wall->count_anew();
+}
+
+void WallBridges::try_to_form(int i, int surface, double step)
+{
+  if (joined[i] >> surface & 1) return;
+  double x[3];
+  wall->particles().position(i, x);
+  const auto foot = wall->foot_of(surface, x);
+  const double at = forming_distance(i), volume = liquid_for(i), gap = at - atom->radius[i];
+  if (foot.distance > at || volume == 0.0) return;
+  if (gap >= wall->coefficient.bridge.rupture_at_rest(volume)) return;
+  apf::BridgeMemory memory;
+  memory.volume_i = volume;
+  const double moved = step * wall->approach_of(i, foot).closing_speed;
+  if (moved > 0.0 && at - foot.distance <= moved) memory.formed = gap;
+  if (wall->coefficient.bridge.inventory()) wall->lender->take_liquid(i, volume);
+  add(i, surface, memory, true);
+}
+
+void WallBridges::detect(double step)
+{
+  joined.resize(atom->nmax, 0);
+  for (int s = 0; s < static_cast<int>(wall->surfaces.size()); s++)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & wall->groupbit && !wall->farther(s, atom->x[i], forming_distance(i)))
+        try_to_form(i, s, step);
+}
+
+void WallBridges::sub_detect(double step)
+{
+  for (const auto &place : near) try_to_form(place.i, place.surface, step);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallBridges::gather()
+{
+  rows.resize(2 * size());
+  for (int b = 0; b < size(); b++) {
+    list.i[b] = 2 * b;
+    list.j[b] = 2 * b + 1;
+    wall->copy_rows(rows, b, list.source[b], surface_of[b]);
+  }
+  rows.clear_loads(0, 2 * size());
+}
+
+int WallBridges::add_forces(const apf::ContactTimes &times, std::vector<apf::DueLoad> &due)
+{
+  gather();
+  int ended = 0;
+  std::vector<apf::DueLoad> of_rows;
+  rows.with_rows([&](auto *r) {
+    ended = list.add_forces(
+        r, times,
+        [&](int b, double overlap, double closing_speed) {
+          return force_of_contact(b, overlap, closing_speed);
+        },
+        of_rows);
+  });
+  for (const auto &load : of_rows)
+    if (load.row % 2 == 0)
+      due.push_back({list.source[load.row / 2], {load.f[0], load.f[1], load.f[2]}});
+  return ended;
+}
+
+// of the dry contact beside bridge b, > 0 repels
+double WallBridges::force_of_contact(int b, double overlap, double closing_speed) const
+{
+  const int i = list.source[b], s = surface_of[b];
+  if (!(wall->touched[i] >> s & 1)) return 0.0;
+  const auto &c =
+      wall->kinds.find(s, wall->coefficient.model, wall->bodies_of(i, s, atom->x[i])).constants;
+  if (overlap < c.break_overlap) return 0.0;
+  const double step = (wall->lender ? wall->lender->times() : wall->times()).step;
+  return apf::force_at(c, apf::jkr_root(overlap, c.inv_R, c.neck), closing_speed, step);
+}
+
+void WallBridges::remove_ruptured(bool in_sub_step)
+{
+  const auto &model = wall->coefficient.bridge;
+  for (int b = size() - 1; b >= 0; b--) {
+    if (!list.ended(b)) continue;
+    const int i = list.source[b];
+    if (model.inventory()) {
+      const auto &memory = list.memory(b);
+      if (unsettled[b]) {    // takes what it asked for; settle() will not see it any more
+        wall->lender->give_liquid(i, -memory.volume_i);
+        wall->lender->take_liquid(i, -memory.volume_i);
+      }
+      const double left = model.sharing == apf::Sharing::even ? 0.5 * memory.volume()
+                                                              : memory.volume_j;
+      wall->lender->give_liquid(i, memory.volume() - left);
+      liquid += left;
+    }
+    if (in_sub_step) near.push_back({i, surface_of[b], 0.0});
+    joined[i] &= ~(1u << surface_of[b]);
+    list.remove(b);
+    surface_of[b] = surface_of.back();
+    surface_of.pop_back();
+    unsettled[b] = unsettled.back();
+    unsettled.pop_back();
+    wall->count_anew();
+  }
+}
+
+void WallBridges::share_masses()
+{
+  for (int b = 0; b < size(); b++)
+    list.set_mass(b, list.constants(b).m / wall->crowding(list.source[b]));
+}
+
+double WallBridges::energy()
+{
+  gather();
+  std::vector<apf::BridgeParts> parts(size());
+  std::vector<apf::DueLoad> none;
+  rows.with_rows([&](auto *r) {
+    list.add_forces(
+        r, {0.0, 0.0, 0.0},
+        [](int, double, double) {
+          return 0.0;
+        },
+        none, parts.data());
+  });
+  double sum = 0.0;
+  for (const auto &part : parts) sum += part.energy;
+  return sum;
+}
+
+double WallBridges::liquid_held() const
+{
+  double sum = 0.0;
+  for (int b = 0; b < size(); b++) sum += list.memory(b).volume();
+  return sum;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void WallBridges::find_fastest(apf::LookAhead &ahead)
+{
+  gather();
+  rows.with_rows([&](const auto *r) {
+    ahead.fastest = std::max(ahead.fastest, list.fastest(r, update->dt, [&](int b) {
+      return ahead.acceleration[list.source[b]];
+    }));
+  });
+}
+
+void WallBridges::find_approaching(apf::LookAhead &ahead)
+{
+  near.clear();
+  perhaps.clear();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & wall->groupbit)) continue;
+    const double *x = atom->x[i];
+    const double at = forming_distance(i), beyond = at - atom->radius[i];
+    const double farthest = ahead.farthest() + ahead.reach * wall->speed_near(x);
+    for (int s = 0; s < static_cast<int>(wall->surfaces.size()); s++) {
+      const bool bridged = joined[i] >> s & 1;
+      if (!bridged && wall->farther(s, x, farthest + at)) continue;
+      const auto approach = wall->approach_of(i, wall->foot_of(s, x));
+      const Place place{i, s, approach.gap - beyond};
+      if (bridged) {
+        ahead.meet(i, approach.relative_speed);
+        if (!(wall->touched[i] >> s & 1)) wall->near.push_back({i, s});    // it pulls
+      } else if (place.gap <= ahead.distance(approach.closing_speed)) {
+        ahead.meet(i, approach.relative_speed);
+        near.push_back(place);
+      } else if (place.gap <= farthest) {
+        perhaps.push_back(place);
+      }
+    }
+  }
+}
+
+void WallBridges::find_near(const apf::LookAhead &ahead)
+{
+  size_t left = 0;
+  for (const auto &place : perhaps) {
+    if (ahead.activity[place.i] == apf::FREE || place.gap > ahead.distance_if_struck())
+      perhaps[left++] = place;
+    else
+      near.push_back(place);
+  }
+  perhaps.resize(left);
+}
+
+void WallBridges::find_stiffest(apf::Stiffest &stiffest)
+{
+  gather();
+  rows.with_rows([&](const auto *r) {
+    list.find_stiffest(r, stiffest);
+  });
+  for (const auto &place : near) {
+    const double volume = liquid_for(place.i);
+    if (volume == 0.0) continue;
+    const auto mode = apf::capillary_mode(constants_of(place.i, place.surface, volume));
+    auto approach = wall->approach_of(place.i, wall->foot_of(place.surface, atom->x[place.i]));
+    approach.gap = place.gap;
+    stiffest.include_near(mode, approach);
+  }
+}
+
+void WallBridges::settle()
+{
+  for (int b = 0; b < size(); b++) {
+    if (!unsettled[b]) continue;
+    unsettled[b] = 0;
+    const int i = list.source[b];
+    auto memory = list.memory(b);
+    memory.volume_i *= wall->lender->granted(i);
+    list.refill(b, constants_of(i, surface_of[b], memory.volume()), memory);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int *WallBridges::counts_of_atoms()
+{
+  counts.assign(atom->nmax, 0);
+  for (const int i : list.source) counts[i]++;
+  return counts.data();
+}
+
+double *WallBridges::liquid_of_atoms()
+{
+  volumes.assign(atom->nmax, 0.0);
+  for (int b = 0; b < size(); b++) volumes[list.source[b]] += list.memory(b).volume_i;
+  return volumes.data();
+}
+
+void WallBridges::count_where_dry_contact_is_not(std::vector<int> &of_atoms) const
+{
+  for (int b = 0; b < size(); b++) {
+    const int i = list.source[b];
+    if (!(wall->touched[i] >> surface_of[b] & 1)) of_atoms[i]++;
+  }
+}
