@@ -132,6 +132,20 @@ std::vector<Row> law_errors(const std::string &line, const std::string &command)
       {"scale_stiffness -1", {command, "scale_stiffness must be in (0, 1], got -1"}},
       {"scale_stiffness 1.5", {command, "scale_stiffness must be in (0, 1], got 1.5"}},
       {"scale_stiffness half", {"must be a number", "got half"}},
+      {"bridge 0.01 0.07 0", {lower + " bridge viscosity mu " + missing}},
+      {"bridge 0 0.07 0 1e-3", {command, "volume ratio l must be in (0, 1], got 0"}},
+      {"bridge 0.01 0 0 1e-3", {command, "surface tension sigma must be > 0, got 0"}},
+      {"bridge 0.01 0.07 90 1e-3", {command, "contact angle theta must be in [0, 89], got 90"}},
+      {"bridge 0.01 0.07 0 -1", {command, "viscosity mu must be >= 0, got -1"}},
+      {"bridge 0.01 0.07 0 1e-3 0", {command, "hmin over R must be in (0, 1], got 0"}},
+      {"form contact form drop", {command, "form must be contact or film, got drop"}},
+      {"form film", {command, "need keyword bridge"}},
+      {"tangential yes", {command, "need keyword bridge"}},
+      {"bridge 0.01 0.07 0 1e-3 capillary exact", {command, "capillary must be maugis or willett"}},
+      {"bridge 0.1 0.07 0 1e-3 capillary willett", {command, "bridge l must be <= 0.02387"}},
+      {"bridge 0.01 0.07 60 1e-3 capillary willett", {command, "bridge theta must be <= 50"}},
+      {"bridge 0.01 0.07 0 1e-3 inventory 1.1", {command, "inventory share must be in [0, 1]"}},
+      {"bridge 0.01 0.07 0 1e-3 wet_gamma 1 6 1 3", {command, "A_f = 3 lies between"}},
 
   };
   for (const auto &row : keywords) table.push_back({"jkr 1e6 0.3 0.01 " + row.input, row.words});
