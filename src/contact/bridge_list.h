@@ -38,8 +38,8 @@ struct BridgeParts {
   double energy;           // of the capillary force: 0 at rupture, < 0 before it        [energy]
 };
 
-// The mode of the capillary force, whose strength changes over the length sqrt(b). Viscosity sets no
-// limit to the step.
+// The mode of the capillary force, whose strength changes over the length sqrt(b). Viscosity sets
+// no limit to the step.
 inline StiffestMode capillary_mode(const BridgeConstants &c)
 {
   const double length = std::sqrt(c.b), force = c.attraction(c.h_min);

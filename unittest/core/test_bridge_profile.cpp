@@ -104,8 +104,8 @@ BridgeConstants law(Capillary capillary, double volume, double theta)
 
 }    // namespace
 
-// Willett's experiment, 74.2 nl between spheres of 2.381 mm. The fit follows exact profiles; eq (45)
-// is too strong near contact and too weak before rupture, as the doc page says.
+// Willett's experiment, 74.2 nl between spheres of 2.381 mm. The fit follows exact profiles; eq
+// (45) is too strong near contact and too weak before rupture, as the doc page says.
 TEST(BridgeProfile, laws_beside_exact_profiles)
 {
   const double V = 5.497e-3;

@@ -144,7 +144,7 @@ std::vector<Row> law_errors(const std::string &line, const std::string &command)
       {"bridge 0.01 0.07 0 1e-3 capillary exact", {command, "capillary must be maugis or willett"}},
       {"bridge 0.1 0.07 0 1e-3 capillary willett", {command, "bridge l must be <= 0.02387"}},
       {"bridge 0.01 0.07 60 1e-3 capillary willett", {command, "bridge theta must be <= 50"}},
-      {"bridge 0.01 0.07 0 1e-3 inventory 1.1", {command, "inventory share must be in [0, 1]"}},
+      {"bridge 0.01 0.07 0 1e-3 inventory 1.1", {command, "inventory share must be in (0, 1]"}},
       {"bridge 0.01 0.07 0 1e-3 wet_gamma 1 6 1 3", {command, "A_f = 3 lies between"}},
 
   };
