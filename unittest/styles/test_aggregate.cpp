@@ -81,9 +81,10 @@ std::vector<double> gather(Simulation &sim, const char *name, int columns)
 
 std::vector<Row> rows(Simulation &sim, const char *compute = "c_agg")
 {
-  const auto values = gather(sim, compute, 4);
+  constexpr int columns = 6;    // the last two are those of liquid bridges
+  const auto values = gather(sim, compute, columns);
   std::vector<Row> result;
-  for (size_t m = 0; m < values.size(); m += 4)
+  for (size_t m = 0; m < values.size(); m += columns)
     result.push_back({values[m], values[m + 1], values[m + 2], values[m + 3]});
   return result;
 }
