@@ -81,7 +81,7 @@ std::vector<double> gather(Simulation &sim, const char *name, int columns)
 
 std::vector<Row> rows(Simulation &sim, const char *compute = "c_agg")
 {
-  constexpr size_t columns = 6;    // those of bridges are last
+  constexpr int columns = 6;    // the last two are those of liquid bridges
   const auto values = gather(sim, compute, columns);
   std::vector<Row> result;
   for (size_t m = 0; m < values.size(); m += columns)
