@@ -19,3 +19,4 @@ fi
 row "$cells"
 map "$out/fiber-w$W.vtkhdf" --spacing 5e-7 5e-7 2e-5 --compress \
   --bounds -4e-5 4e-5 -${half}e-5 ${half}e-5 -1e-5 1e-5
+"$here/distance.py" "$out/fiber-w$W.vtkhdf"
