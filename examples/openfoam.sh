@@ -22,4 +22,7 @@ solve() {
 # drag along x of the function object `drag`, at the end
 drag() { grep 'Total *:' "$case/log.simpleFoam" | tail -n 2 | head -n 1 | sed 's/.*: (\([^ ]*\) .*/\1/'; }
 
-map() { "$here/../../flowgrid" "$case" "$@"; }
+# the flow in $case, or walls alone, on a Cartesian grid. FLOWGRID: another build of it
+flowgrid=${FLOWGRID:-$here/../../flowgrid}
+map() { "$flowgrid" "$case" "$@"; }
+walls() { "$flowgrid" "$@"; }

@@ -17,6 +17,5 @@ if [ "$cells" = table ]; then
   exit
 fi
 row "$cells"
-map "$out/fiber-w$W.vtkhdf" --spacing 5e-7 5e-7 2e-5 --compress \
+map "$out/fiber-w$W.vtkhdf" --spacing 5e-7 5e-7 2e-5 --compress --shape "fiber: disc(0,0, 1e-5)" \
   --bounds -4e-5 4e-5 -${half}e-5 ${half}e-5 -1e-5 1e-5
-"$here/distance.py" "$out/fiber-w$W.vtkhdf"
