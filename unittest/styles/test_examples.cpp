@@ -1,4 +1,4 @@
-// Cases of the report: the scripts of examples/, for a short time, end with the word that they passed.
+// Cases of the report: scripts of examples/, for a short time, end with the word that they passed.
 
 #include "scenes.h"
 #include "simulation.h"
@@ -43,4 +43,9 @@ TEST(Examples, nozzle)
 {
   EXPECT_EQ(verdict("nozzle", "nozzle", {"-var", "t", "10"}), "pass");
   EXPECT_EQ(verdict("nozzle", "nozzle", {"-var", "t", "10", "-var", "wall", "no"}), "pass");
+}
+
+TEST(Examples, radiator)
+{
+  EXPECT_EQ(verdict("radiator", "radiator", {"-var", "t", "1"}), "pass");
 }
