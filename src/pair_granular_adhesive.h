@@ -54,6 +54,7 @@ class PairGranularAdhesive : public Pair {
   void sub_step(const apf::ContactTimes &);
 
  private:
+  void parse_types(const char *word, int iarg, int &lo, int &hi) const;
   apf::Candidates candidates;    // pairs of the neighbour list
   apf::ContactList contacts;
   apf::ContactKinds kinds;
