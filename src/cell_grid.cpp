@@ -25,7 +25,8 @@ CellGrid::CellGrid(LAMMPS *_lmp, Fix *_owner, const std::array<int, 3> &count, i
 
 CellGrid::~CellGrid() = default;
 
-// LAMMPS counts a rank's cells in an int; its grids cannot be destroyed after its error of too many.
+// LAMMPS counts a rank's cells in an int; its grids cannot be destroyed after its error of too
+// many.
 void CellGrid::check_size(int reach) const
 {
   double numbers = columns;

@@ -19,8 +19,10 @@ inline void expect_criterion(const std::string &what, double measured, double lo
   EXPECT_LE(measured, high) << what;
   static std::map<std::string, double> margins;
   const auto *test = testing::UnitTest::GetInstance()->current_test_info();
+  // an error counts from 0 on: the largest is the worst, not the one that is nearest to 0
   const double span = high > low ? high - low : 1.0;
-  const double margin = std::min(measured - low, high - measured) / span;
+  const double margin =
+      (low == 0.0 ? high - measured : std::min(measured - low, high - measured)) / span;
   const auto known = margins.emplace(test->name() + what, margin);
   if (!known.second && margin >= known.first->second) return;
   known.first->second = margin;

@@ -1,4 +1,5 @@
-// Right commands of every style of APF, to be spoilt by fuzz_commands, and what must be there before.
+// Right commands of every style of APF, to be spoilt by fuzz_commands, and what must be there
+// before.
 
 #ifndef APF_FUZZ_COMMANDS_H
 #define APF_FUZZ_COMMANDS_H

@@ -1,8 +1,9 @@
-// Commands of APF with words that nobody should write: replaced, dropped, doubled, cut, absurd. Each
-// is tried in a child process of its own; it must be refused by a message that says what is wrong, or
-// run two steps that give numbers. Crashes, hangs, huge allocations and mute refusals are failures.
+// Commands of APF with words that nobody should write: replaced, dropped, doubled, cut, absurd.
+// Each is tried in a child process of its own; it must be refused by a message that says what is
+// wrong, or run two steps that give numbers. Crashes, hangs, huge allocations and mute refusals
+// are failures.
 //
-//   fuzz_commands NUMBER [SEED] [TEXT]      TEXT: only commands that contain it; prints each message
+//   fuzz_commands NUMBER [SEED] [TEXT] TEXT: only commands with it; prints all messages
 
 #include "commands.h"
 #include "simulation.h"

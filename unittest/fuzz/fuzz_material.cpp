@@ -1,5 +1,6 @@
-// libFuzzer: bytes as a material file, read through LAMMPS. A file is refused by an error that names
-// it, or gives a material within the ranges of the page. Build with clang: unittest/fuzz/run
+// libFuzzer: bytes as a material file, read through LAMMPS. A file is refused by an error that
+// names it, or gives a material within the ranges of the page. Build with clang:
+// unittest/fuzz/run
 
 #include "material_file.h"
 #include "simulation.h"

@@ -1,5 +1,5 @@
-// libFuzzer: bytes as a VTKHDF file. A file is refused by an error with a text, or read: then all of
-// it is finite and as long as its grid says. Build with clang: unittest/fuzz/run
+// libFuzzer: bytes as a VTKHDF file. A file is refused by an error with a text, or read: then all
+// of it is finite and as long as its grid says. Build with clang: unittest/fuzz/run
 
 #include "flow/vtkhdf_file.h"
 

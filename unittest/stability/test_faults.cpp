@@ -1,5 +1,6 @@
-// Scenes at the edge of sense: none or one particle, ranks without any, a step of 0, a ratio of sizes
-// of 1000, particles that get lost. A result that is right, or an error that says why there is none.
+// Scenes at the edge of sense: none or one particle, ranks without any, a step of 0, a ratio of
+// sizes of 1000, particles that get lost. A result that is right, or an error that says why there
+// is none.
 
 #include "criterion.h"
 #include "scenes.h"
@@ -34,7 +35,8 @@ TEST(RanksFaults, no_particles)
   }
 }
 
-// on more than one rank the others have none; the sphere relaxes towards the fluid's speed
+// on more than one rank the others have none; the sphere relaxes towards the speed of the fluid to
+// second order in the step, dt/tau = 1e-6 and 1e-5
 TEST(RanksFaults, one_particle)
 {
   for (const auto &integrator : integrators) {
@@ -42,7 +44,7 @@ TEST(RanksFaults, one_particle)
     build(sim, {{3.0, 4.0, 4.0}}, beside_a_wall());
     sim.run(everything + integrator + "run 10");
     const double t = 10.0 * sim.lammps()->update->dt, tau = pi / 6.0 / (3.0 * pi * 1e-3);
-    EXPECT_NEAR(gather(sim, "v")[0] / (4.0 * -std::expm1(-t / tau)), 1.0, 1e-9);
+    EXPECT_NEAR(gather(sim, "v")[0] / (4.0 * -std::expm1(-t / tau)), 1.0, 1e-6);
   }
 }
 
