@@ -1,6 +1,8 @@
 #include "cell_grid.h"
 
+#include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "fix.h"
 #include "grid2d.h"
 #include "grid3d.h"
@@ -9,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <new>
 
 using namespace LAMMPS_NS;
 
@@ -21,7 +25,34 @@ CellGrid::CellGrid(LAMMPS *_lmp, Fix *_owner, const std::array<int, 3> &count, i
 
 CellGrid::~CellGrid() = default;
 
+// LAMMPS counts a rank's cells in an int; its grids cannot be destroyed after its error of too
+// many.
+void CellGrid::check_size(int reach) const
+{
+  double numbers = columns;
+  for (int c = 0; c < dimension(); c++)
+    numbers *= static_cast<double>(n[c]) / lmp->comm->procgrid[c] + 2.0 * reach + 4.0;
+  if (numbers > std::numeric_limits<int>::max())
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "Fix {} {}: a grid of {} x {} x {} cells, with what particles reach beyond a "
+                    "rank's, has {:.3g} numbers on a rank, more than 2^31: use fewer cells, a "
+                    "smaller cloud or more ranks",
+                    owner->id, owner->style, n[0], n[1], n[2], numbers);
+}
+
 void CellGrid::set_up(int reach)
+{
+  check_size(reach);
+  try {
+    allocate(reach);
+  } catch (std::bad_alloc &) {
+    lmp->error->one(FLERR, Error::NOLASTLINE,
+                    "Fix {} {}: no memory for a grid of {} x {} x {} cells", owner->id,
+                    owner->style, n[0], n[1], n[2]);
+  }
+}
+
+void CellGrid::allocate(int reach)
 {
   const Domain *domain = lmp->domain;
   const double farthest = 0.5 * lmp->neighbor->skin;

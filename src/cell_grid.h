@@ -101,6 +101,8 @@ class CellGrid {
   std::vector<double **> planes, cell_lines;
   std::vector<double ***> cell_planes;
 
+  void check_size(int reach) const;
+  void allocate(int reach);
   void point_to_values();
   // weights of cell base and the next along each axis
   bool trilinear(const double *x, int *base, double *weight) const;

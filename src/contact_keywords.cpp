@@ -12,6 +12,9 @@ using namespace LAMMPS_NS;
 
 namespace {
 
+constexpr double infinity = INFINITY;
+constexpr double largest = 1.0e30;    // products of a few numbers are finite yet
+
 // Reads words one after another; errors name command, keyword, value and range.
 class Words {
  public:
@@ -51,6 +54,9 @@ class Words {
       lmp->error->all(FLERR, offset + iarg, "{} {} must be {}, got {}", command, keyword, range,
                       arg[iarg]);
     }
+    if (value > largest)
+      lmp->error->all(FLERR, offset + iarg, "{} {} must be <= {}, got {}", command, keyword,
+                      largest, arg[iarg]);
     iarg++;
     return value;
   }
@@ -76,8 +82,6 @@ class Words {
 
   std::string lower() const { return utils::lowercase(command); }
 };
-
-constexpr double infinity = INFINITY;
 
 void parse_damping(Words &words, apf::ContactModel &model)
 {

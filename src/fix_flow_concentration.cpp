@@ -20,6 +20,7 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 static constexpr const char *command = "Fix flow/concentration";
+static constexpr double widest_cloud = 10.0;    // over the box; its margins are memory
 
 /* ---------------------------------------------------------------------- */
 
@@ -118,6 +119,11 @@ void FixFlowConcentration::set_up()
   wide = false;
   for (int c = 0; c < domain->dimension; c++)
     if (domain->periodicity[c] && 2.0 * apf::cloud_reach * radius > domain->prd[c]) check_wide(c);
+  for (int c = 0; c < domain->dimension; c++)
+    if (radius > widest_cloud * domain->prd[c])
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} {}: cloud must be <= {} times the box, which is {} wide along {}, got {}",
+                 command, id, widest_cloud, domain->prd[c], "xyz"[c], radius);
   grid.set_up(1);
   open.set_up(wide ? 1 : CloudSum::reach(grid, radius));
   mark_fluid();

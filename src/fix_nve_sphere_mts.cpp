@@ -64,10 +64,10 @@ FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
     iarg++;
   } else if (how != "auto") {
     fixed_steps = utils::is_integer(how) ? utils::inumeric(FLERR, arg[4], false, lmp) : 0;
-    if (fixed_steps < 1)
+    if (fixed_steps < 1 || fixed_steps > too_many)
       error->all(FLERR, 4,
-                 "{} collision must be auto, tolerance T or a number of steps >= 1, got {}",
-                 command, arg[4]);
+                 "{} collision must be auto, tolerance T or a number of steps from 1 to {}, got {}",
+                 command, too_many, arg[4]);
   }
   for (; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];

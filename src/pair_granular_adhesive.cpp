@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 
@@ -361,16 +362,29 @@ void PairGranularAdhesive::allocate()
 
 /* ---------------------------------------------------------------------- */
 
+// LAMMPS's own reader of ranges throws what nobody catches at words such as -* and 1e20
+void PairGranularAdhesive::parse_types(const char *word, int iarg, int &lo, int &hi) const
+{
+  try {
+    utils::bounds(FLERR, word, 1, atom->ntypes, lo, hi, error);
+  } catch (std::logic_error &) {
+    error->all(FLERR, iarg,
+               "Pair granular/adhesive atom types must be a number or a range within "
+               "1 to {}, got {}",
+               atom->ntypes, word);
+  }
+}
+
 void PairGranularAdhesive::coeff(int narg, char **arg)
 {
   if (narg < 3) utils::missing_cmd_args(FLERR, "pair_coeff granular/adhesive", error);
   if (!allocated) allocate();
 
-  int ilo, ihi, jlo, jhi;
-  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
-  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
   // where arg[0] stands in the input line: 0, or behind the style names of pair_style hybrid
   const int offset = force->pair_match("^hybrid", 0) ? 1 : 0;
+  int ilo, ihi, jlo, jhi;
+  parse_types(arg[0], offset, ilo, ihi);
+  parse_types(arg[1], offset + 1, jlo, jhi);
   int iarg = 2;
   const auto coeff = parse_contact(lmp, "Pair granular/adhesive", narg, arg, iarg, offset);
   if (iarg < narg)

@@ -64,6 +64,7 @@ class PairGranularAdhesive : public Pair {
   bool is_closed(int candidate) const { return candidates.closed[candidate]; }
 
  private:
+  void parse_types(const char *word, int iarg, int &lo, int &hi) const;
   apf::Candidates candidates;    // pairs of the neighbour list
   apf::ContactList contacts;
   apf::ContactKinds kinds;

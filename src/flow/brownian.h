@@ -20,7 +20,7 @@ template <class Real>
 APF_INLINE Real thermal_amplitude(double kT, const Real &resistance, double time)
 {
   using std::sqrt;
-  return sqrt((2.0 * kT / time) * resistance);
+  return std::sqrt(2.0 * kT / time) * sqrt(resistance);    // kT may be 0, the root of Packs not
 }
 
 }    // namespace apf

@@ -20,7 +20,7 @@ constexpr double cloud_reach = 4.0;
 // cells beyond that of the particle that its cloud reaches
 inline int cloud_cells(double radius, double spacing)
 {
-  return static_cast<int>(std::ceil(cloud_reach * radius / spacing));
+  return static_cast<int>(std::min(std::ceil(cloud_reach * radius / spacing), 1.0e8));
 }
 
 // Weights along one axis: of cells first, first + 1, ...

@@ -1,0 +1,34 @@
+// A criterion of the list of hard cases: checked, and kept in the record of the test with what was
+// measured, for tools/cases, which makes the table of the documentation.
+
+#ifndef APF_TEST_CRITERION_H
+#define APF_TEST_CRITERION_H
+
+#include "gtest/gtest.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+
+// low <= measured <= high. Of several of one name in a test the one nearest to a limit is kept.
+//   what   begins with the number of the case, as in "C4 missed impacts of 1e5, mts"
+inline void expect_criterion(const std::string &what, double measured, double low, double high)
+{
+  EXPECT_GE(measured, low) << what;
+  EXPECT_LE(measured, high) << what;
+  static std::map<std::string, double> margins;
+  const auto *test = testing::UnitTest::GetInstance()->current_test_info();
+  // an error counts from 0 on: the largest is the worst, not the one that is nearest to 0
+  const double span = high > low ? high - low : 1.0;
+  const double margin =
+      (low == 0.0 ? high - measured : std::min(measured - low, high - measured)) / span;
+  const auto known = margins.emplace(test->name() + what, margin);
+  if (!known.second && margin >= known.first->second) return;
+  known.first->second = margin;
+  char numbers[96];
+  snprintf(numbers, sizeof(numbers), "%.4g|%.4g|%.4g", measured, low, high);
+  testing::Test::RecordProperty(what, numbers);
+}
+
+#endif

@@ -1,0 +1,107 @@
+// Right commands of every style of APF, to be spoilt by fuzz_commands, and what must be there
+// before.
+
+#ifndef APF_FUZZ_COMMANDS_H
+#define APF_FUZZ_COMMANDS_H
+
+#include <string>
+
+namespace fuzz {
+
+// two pairs of spheres that touch, one of them at the wall y = 0
+inline const std::string scene = R"(
+units si
+atom_style sphere
+atom_modify map array
+comm_modify vel yes
+boundary p f p
+region box block 0 8 0 8 0 8
+create_box 2 box
+create_atoms 1 single 3 0.495 4
+create_atoms 2 single 3.99 0.6 4
+create_atoms 1 single 5 5 5
+create_atoms 2 single 5.99 5 5
+set group all diameter 1.0 density 1.0
+neighbor 0.5 bin
+timestep 1e-5
+thermo 1
+variable zero equal 0.0
+)";
+
+// what parts of the words of a command need
+inline const std::string pair = "pair_style granular/adhesive\npair_coeff * * jkr 1e6 0.3 10\n";
+inline const std::string nve = "fix nve all nve/sphere\n";
+inline const std::string air =
+    "fix air all flow/field shear x y 1.0 0.0 density 1.2 viscosity 1.8e-1\n";
+inline const std::string cloud = "fix cloud all flow/concentration 8 8 8 cloud 0.6 every 1\n";
+
+struct Command {
+  std::string before, command;
+  int keep;    // words at the beginning that stay, since others would be another command
+};
+
+inline const Command commands[] = {
+    {nve + "pair_style granular/adhesive\n",
+     "pair_coeff * * jkr 1e6 0.3 10 damping tsuji 0.8 sliding 0.3 twisting yes rolling 0.02 0.1 "
+     "break force scale_stiffness 0.5",
+     1},
+    {nve + "pair_style granular/adhesive\n",
+     "pair_coeff * * material materials.adhesive silica damping alpha 0.4 sliding 0.3", 1},
+    {nve + pair,
+     "fix wall all wall/levelset plane y 0 8 jkr 1e6 0.3 10 damping alpha 0.3 sliding 0.3 twisting "
+     "yes rolling 0.02 0.1 break displacement scale_stiffness 0.5",
+     4},
+    {nve + pair, "fix wall all wall/levelset cylinder z 4 4 5.0 inside jkr 1e6 0.3 10", 4},
+    {nve + pair, "fix air all flow/field channel x y 0 8 1.0 density 1.2 viscosity 1.8e-5", 4},
+    {nve + pair, "fix air all flow/field pipe x 4 4 4 1.0 density 1.2 viscosity 1.8e-5", 4},
+    {nve + pair, "fix air all flow/field uniform 1 v_zero 0 density 1.2 viscosity 1.8e-5", 4},
+    {nve + pair, "fix air all flow/field shear x y 1.0 0.0 density 1.2 viscosity 1.8e-5", 4},
+    {nve + pair + air,
+     "fix drag all flow/force air drag stokes torque yes gravity 0 -9.8 0 lift saffman magnus yes "
+     "added_mass yes pressure yes cunningham 1e-8",
+     4},
+    {nve + pair + air, "fix drag all flow/force air drag schiller brownian 300 12345", 4},
+    {nve + pair + air + cloud,
+     "fix drag all flow/force air drag difelice superficial concentration cloud feedback yes", 4},
+    {nve + pair + air, "fix drag all flow/force air drag difelice concentration 0.1 feedback 4 4 4",
+     4},
+    {nve + pair, "fix cloud all flow/concentration 8 8 8 cloud 0.6 every 1 method direct", 4},
+    {nve + pair, "fix cloud all flow/concentration 40 40 40 cloud 0.6 method fft", 4},
+    {nve + pair + air,
+     "fix in all inlet/flow x 1.0 air concentration 0.01 every 1 diameter lognormal 0.2 1.2 0.1 "
+     "0.4 "
+     "density 2 type 1 seed 7 window 1 7 1 7 gap 0.01 attempts 50 outlet x 7.0",
+     4},
+    {nve + pair + air,
+     "fix in all inlet/flow x 1.0 air number 2 diameter poly volume 2 0.2 0.5 0.3 0.5 density 2 "
+     "type "
+     "2 seed 7",
+     4},
+    {pair, "fix nve all nve/sphere/mts collision 10 fluid 2 lookahead yes", 4},
+    {pair, "fix nve all nve/sphere/mts collision auto safety 0.2", 4},
+    {pair, "fix nve all nve/sphere/mts collision tolerance 0.01", 4},
+    {nve + pair, "compute clumps all aggregate/contact", 3},
+    {nve + pair, "compute parts all pair granular/adhesive", 3},
+};
+
+// lower case; one of them is in every message of APF's own, and many of LAMMPS's
+inline const char *const names[] = {
+    "pair granular/adhesive",
+    "pair_coeff",
+    "pair coeff",
+    "wall/levelset",
+    "flow/field",
+    "flow/force",
+    "flow/concentration",
+    "inlet/flow",
+    "nve/sphere/mts",
+    "aggregate/contact",
+    "fix_modify",
+    "compute pair",
+    "atom type",
+    "lost atoms",
+};
+
+}    // namespace fuzz
+
+#endif
