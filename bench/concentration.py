@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from speed_error import HERE, Failure, processor, run_lammps, stop
+from lammps_runs import HERE, Failure, processor, run_lammps, stop
 
 REACH = 4.0    # of a cloud, in radii
 # ns: a cell of a cloud, a cell along one axis of it, and a cell of the grid with its ghosts, as in

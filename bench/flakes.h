@@ -80,7 +80,7 @@ struct Flakes {
           const double grown = spread * normal(random), r = radius * (1.0 + grown);
           const double m = 4.0 / 3.0 * apf::pi * r * r * r * rho, I = 0.4 * m * r * r;
           const auto pair = apf::ContactBodies::pair(radius - r * grown, r, 0.5 * m, 0.5 * I);
-          list.add(n * size + a, n * size + b, 0, apf::ContactKind::make(model, pair), {});
+          list.add(n * size + a, n * size + b, 0, list.kinds.find(0, model, pair), {});
         }
     }
   }

@@ -22,7 +22,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from speed_error import HERE, Failure, processor, run_lammps, stop
+from lammps_runs import HERE, Failure, processor, run_lammps, stop
 
 PARTICLES = 10000
 L, U = 1e-3, 0.5    # box and largest velocity, as in in.forces

@@ -25,7 +25,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from speed_error import (CHANNEL, HERE, Failure, check_log, environment, lammps_command, processor,
+from lammps_runs import (CHANNEL, HERE, Failure, check_log, environment, lammps_command, processor,
                          prose, read_log, stop)
 
 WARM = 5                        # particle steps before the clock starts

@@ -1,108 +1,20 @@
 // Contacts and liquid bridges kept with the particles they belong to, while particles change index,
 // rank or run: lists of contacts hold rows that a rebuild makes invalid, this store holds partner
 // IDs. Pair style and walls use it alike (a wall's partner ID is the number of its surface).
+// It holds them only until forces are computed again; liquid stays.
 
 #ifndef APF_CONTACT_STORE_H
 #define APF_CONTACT_STORE_H
 
 #include "contact/bridge_list.h"
 #include "contact/contact_list.h"
-#include "lmptype.h"
+#include "partner_records.h"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
-
-// What each atom remembers of its partners. Memory is made of doubles alone.
-template <class Memory> class PartnerRecords {
- public:
-  static constexpr int record_size = 1 + Memory::size;    // doubles
-  static_assert(sizeof(Memory) == Memory::size * sizeof(double), "packed as it is");
-
-  void clear(int i)
-  {
-    if (i < rows()) records[i].clear();
-  }
-  void add(int i, tagint partner, const Memory &memory)
-  {
-    if (i >= rows()) records.resize(i + 1);
-    records[i].push_back({partner, memory});
-  }
-  // nullptr if atom i had nothing with partner
-  const Memory *find(int i, tagint partner) const
-  {
-    if (i < rows())
-      for (const auto &record : records[i])
-        if (record.partner == partner) return &record.memory;
-    return nullptr;
-  }
-  int count(int i) const { return i < rows() ? static_cast<int>(records[i].size()) : 0; }
-
-  void copy(int from, int to)
-  {
-    if (from < rows() && to >= rows()) records.resize(to + 1);
-    if (from < rows())
-      records[to] = records[from];
-    else
-      clear(to);
-  }
-
-  // gives partners their new IDs; what was with atoms that are gone is dropped
-  void renumber(int i, const std::unordered_map<tagint, tagint> &new_id)
-  {
-    if (i >= rows()) return;
-    auto &list = records[i];
-    list.erase(std::remove_if(list.begin(), list.end(),
-                              [&](const Record &r) {
-                                return new_id.count(r.partner) == 0;
-                              }),
-               list.end());
-    for (auto &record : list) record.partner = new_id.at(record.partner);
-  }
-
-  void pack_record(int i, int k, double *buf) const
-  {
-    const auto &record = records[i][k];
-    const auto *value = reinterpret_cast<const double *>(&record.memory);
-    buf[0] = ubuf(record.partner).d;
-    std::copy(value, value + Memory::size, buf + 1);
-  }
-  void unpack_record(int i, const double *buf)
-  {
-    Memory memory;
-    std::copy(buf + 1, buf + record_size, reinterpret_cast<double *>(&memory));
-    add(i, static_cast<tagint>(ubuf(buf[0]).i), memory);
-  }
-  int size(int i) const { return record_size * count(i); }    // of what pack writes
-  double *pack(int i, double *buf) const
-  {
-    for (int k = 0; k < count(i); k++, buf += record_size) pack_record(i, k, buf);
-    return buf;
-  }
-  const double *unpack(int i, int n, const double *buf)
-  {
-    for (int k = 0; k < n; k++, buf += record_size) unpack_record(i, buf);
-    return buf;
-  }
-
-  double memory_usage() const    // [bytes]
-  {
-    double bytes = records.capacity() * sizeof(records[0]);
-    for (const auto &list : records) bytes += list.capacity() * sizeof(Record);
-    return bytes;
-  }
-
- private:
-  struct Record {
-    tagint partner;
-    Memory memory;
-  };
-  std::vector<std::vector<Record>> records;    // one list per atom, as far as there are any
-  int rows() const { return static_cast<int>(records.size()); }
-};
 
 class ContactStore {
  public:
@@ -112,6 +24,8 @@ class ContactStore {
   void grow(int n)
   {
     if (n <= static_cast<int>(owners.size())) return;
+    contacts.grow(n);
+    bridges.grow(n);
     owners.resize(n, 0);
     if (keeps_liquid()) liquid.resize(n, NAN);
   }
@@ -121,10 +35,18 @@ class ContactStore {
     bridges.clear(i);
     owners[i] = 0;
   }
-  void clear_range(int first, int last)
+  // all anew, for that many atoms, with room for records of so many contacts and bridges
+  void start(int atoms, size_t of_contacts, size_t of_bridges)
   {
-    grow(last);
-    for (int i = first; i < last; i++) clear(i);
+    grow(atoms);
+    contacts.start(of_contacts);
+    bridges.start(of_bridges);
+    std::fill(owners.begin(), owners.end(), 0);
+  }
+  void release()
+  {
+    contacts.release();
+    bridges.release();
   }
   void insert(int i)    // a new atom
   {

@@ -296,7 +296,9 @@ void FixContactHistory::store_contacts()
   const tagint *tag = atom->tag;
   const int nlocal = atom->nlocal;
   const bool planar = pair->planar();
-  store.clear_range(0, nlocal + atom->nghost);
+  const auto *bridges = pair->liquid_bridges();
+  store.start(nlocal + atom->nghost, 2 * static_cast<size_t>(contacts.size()),
+              bridges ? 2 * static_cast<size_t>(bridges->size()) : 0);
   for (int i = 0; i < nlocal; i++) store.set_owner(i, tag[i]);
   auto keep = [&](auto &records, int i, int j, const auto &memory) {
     records.add(i, tag[j], memory);
@@ -305,7 +307,6 @@ void FixContactHistory::store_contacts()
   for (int k = 0; k < contacts.size(); k++)
     keep(store.contacts, contacts.i[k], contacts.j[k], contacts.history_of(k));
   if (force->newton_pair) send_to_owners(store.contacts);
-  const auto *bridges = pair->liquid_bridges();
   if (!bridges) return;
   for (int k = 0; k < bridges->size(); k++)
     keep(store.bridges, bridges->i[k], bridges->j[k], bridges->memory(k));

@@ -237,5 +237,5 @@ int FixContacts::maxsize_restart()
 
 double FixContacts::memory_usage()
 {
-  return store.memory_usage() + atom->nmax * UsedVelocity::size * sizeof(double);
+  return store.memory_usage() + velocities.memory_usage();
 }

@@ -71,8 +71,12 @@ class FixContacts : public Fix {
   // loads that other ranks have put on atoms of this one are added; [local and ghost atoms][3]
   virtual void collect_due(std::vector<double> &) {}
 
-  void contacts_change() { stored = false; }    // what the store holds is no longer the latest
-  void count_anew() { changes++; }              // a contact was made or has ended
+  void contacts_change()    // what the store holds is no longer the latest
+  {
+    stored = false;
+    store.release();
+  }
+  void count_anew() { changes++; }    // a contact was made or has ended
 
   void register_with_atoms();    // last act of a derived class's constructor
 

@@ -12,8 +12,7 @@ FixStyle(nve/sphere/mts,FixNVESphereMTS);
 #include "fix.h"
 
 #include "contact/stiffness.h"
-#include "ghost_exchange.h"
-#include "timestep/look_ahead.h"
+#include "particle_look_ahead.h"
 #include "timestep/sub_step.h"
 
 #include <array>
@@ -35,7 +34,7 @@ class FixNVESphereMTS : public Fix {
   void init() override;
   void setup(int) override;
   void setup_post_neighbor() override { post_neighbor(); }
-  void post_neighbor() override;
+  void post_neighbor() override { foresight.list_was_built(); }
   void initial_integrate(int) override;
   void final_integrate() override;
   void post_run() override;
@@ -50,10 +49,22 @@ class FixNVESphereMTS : public Fix {
   int unpack_exchange(int, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  int pack_forward_comm(int, int *, double *, int, int *) override;
-  void unpack_forward_comm(int, int, double *) override;
-  int pack_reverse_comm(int, int, double *) override;
-  void unpack_reverse_comm(int, int *, double *) override;
+  int pack_forward_comm(int n, int *list, double *buf, int, int *) override
+  {
+    return foresight.pack_forward(n, list, buf);
+  }
+  void unpack_forward_comm(int n, int first, double *buf) override
+  {
+    foresight.unpack_forward(n, first, buf);
+  }
+  int pack_reverse_comm(int n, int first, double *buf) override
+  {
+    return foresight.pack_reverse(n, first, buf);
+  }
+  void unpack_reverse_comm(int n, int *list, double *buf) override
+  {
+    foresight.unpack_reverse(n, list, buf);
+  }
 
   // time between two force computations of contacts, and of the kicks that atom i gets
   double collision_step() const;
@@ -63,36 +74,22 @@ class FixNVESphereMTS : public Fix {
   bool fixed_number() const { return fixed_steps > 0; }
 
  private:
+  static constexpr const char *command = "Fix nve/sphere/mts";
+  static constexpr int too_many = 1000000;    // collision steps of a particle step
+
   // as the script has it
   int fixed_steps = 0;    // collision steps of a particle step; 0 = from the stiffest mode
   apf::StepRule rule;     // else: how fine it must be
   int fluid_every = 1;    // particle steps of a fluid step
-  bool lookahead = true;
 
   int n_collision = 1;           // collision steps of the present particle step
   std::vector<char> activity;    // of local atoms: was sub-stepped in the last particle step
   std::vector<std::array<double, 6>> slow_before;    // accelerations that it began with
-  apf::LookAhead ahead;
-  GhostExchange exchange;
+  ParticleLookAhead foresight;
   class FixContactHistory *history = nullptr;
   std::vector<class FixContacts *> keepers;
   std::vector<class FixFlowForce *> fluids;
   int freeze_group_bit = 0;
-
-  std::vector<double> x_built;    // positions when the neighbour list was built, [atoms][3]
-  bool owners_known = false;
-  std::vector<int> owner_rank, owner_row;    // of local and ghost atoms
-  enum class Message { OWNERS, ACTIVITY, VALUES, LOADS } message = Message::OWNERS;
-  std::vector<double> values;
-
-  // global maxima at the start of a particle step
-  struct Extremes {
-    double spread;          // of velocities: no two differ by more                  [velocity]
-    double speed;           //                                                       [velocity]
-    double acceleration;    // of particles that touch nothing                  [velocity/time]
-    double displacement;    // since the neighbour list was built                      [length]
-    double struck;          // speed of a light body struck by a heavy one, over the latter's  [-]
-  };
 
   struct Totals {    // of a run, for the summary
     bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0;
@@ -103,22 +100,14 @@ class FixNVESphereMTS : public Fix {
   bigint all_collision_steps = 0, late_before_restart = 0;
   bigint active_now = 0;
   double kappa_now = 0.0;
-  bool warned_of_skin = false;
   double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 
   void find_slow_largest();
-  Extremes find_extremes() const;
-  void demand_neighbours(const Extremes &);
-  void look_ahead();
-  void share_activity();
-  void know_owners();
-  std::vector<double> surface_accelerations();
   void choose_steps();
-  apf::Slow slow_of(int i, const double *contact_force, const double *contact_torque) const;
+  apf::Slow slow_of(int i, bool all = false) const;
   double contact_share(int i) const;
   void kick_atom(int i, double time);
-  void kick_free(int i, const double *load, double load_time);
-  void gather_loads();
+  void kick_free(int i, double load_time);
   void end_slow_kicks();
   template <class Row> void sub_step_active();
   void drift_free();

@@ -300,7 +300,8 @@ void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &histo
 {
   const int k = contacts.size();
   auto bodies = bodies_of(i, surface, atom->x[i]);
-  contacts.add(2 * k, 2 * k + 1, i, kinds.find(surface, coefficient.model, bodies), history);
+  contacts.add(2 * k, 2 * k + 1, i, contacts.kinds.find(surface, coefficient.model, bodies),
+               history);
   bodies.crowding = crowding(i) + 1.0;
   contacts.set_crowding(k, bodies);
   surface_of.push_back(surface);
@@ -356,8 +357,8 @@ void FixWallLevelset::follow_curvature()
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.source[k], s = surface_of[k];
     if (surfaces[s].uniform) continue;
-    const auto kind = kinds.find(s, coefficient.model, bodies_of(i, s, atom->x[i]));
-    if (kind.constants.turning != contacts.constants_of(k).turning) contacts.change_kind(k, kind);
+    const int kind = contacts.kinds.find(s, coefficient.model, bodies_of(i, s, atom->x[i]));
+    if (kind != contacts.kind[k]) contacts.change_kind(k, kind);
   }
 }
 
@@ -529,7 +530,7 @@ void FixWallLevelset::find_fastest(apf::LookAhead &ahead)
   if (contacts.size() == 0) return;
   gather();    // contacts may have ended since the last forces
   rows.with_rows([&](const auto *r) {
-    ahead.fastest = std::max(ahead.fastest, contacts.fastest(r, update->dt, [&](int k) {
+    ahead.fastest = std::max(ahead.fastest, contacts.find_fastest(r, update->dt, [&](int k) {
       return ahead.acceleration[contacts.source[k]];
     }));
   });
@@ -622,17 +623,14 @@ void FixWallLevelset::settle_bridges()
 
 void FixWallLevelset::find_stiffest(apf::Stiffest &stiffest)
 {
-  if (contacts.size() > 0) gather();    // contacts may have ended since the last forces
-  rows.with_rows([&](const auto *r) {
-    contacts.find_stiffest(r, stiffest, [&](int k) {
-      return stiffest.acceleration[contacts.source[k]];
-    });
+  contacts.find_stiffest(stiffest, [&](int k) {
+    return stiffest.acceleration[contacts.source[k]];
   });
   for (const auto &[i, s] : near) {
     const double *x = atom->x[i];
     const auto bodies = bodies_of(i, s, x);
-    stiffest.include_near(kinds.find(s, coefficient.model, bodies).mode,
-                          approach_of(i, foot_of(s, x)));
+    const int kind = contacts.kinds.find(s, coefficient.model, bodies);
+    stiffest.include_near(contacts.kinds[kind].mode, approach_of(i, foot_of(s, x)));
   }
   if (wet) bridges.find_stiffest(stiffest);
 }
@@ -648,7 +646,7 @@ void FixWallLevelset::before_storing()
 
 void FixWallLevelset::store_contacts()
 {
-  store.clear_range(0, atom->nlocal);
+  store.start(atom->nlocal, contacts.size(), wet ? bridges.size() : 0);
   for (int k = 0; k < contacts.size(); k++)
     store.contacts.add(contacts.source[k], surface_of[k], contacts.history_of(k));
   if (wet) bridges.store_into(store);

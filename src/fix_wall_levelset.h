@@ -88,7 +88,6 @@ class FixWallLevelset : public FixContacts {
     double gap;
   };
   std::vector<Perhaps> perhaps;    // ... if another strikes them
-  apf::ContactKinds kinds;
 
   WallBridges bridges;
   bool wet = false;    // the wall has bridges

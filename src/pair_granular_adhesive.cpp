@@ -79,7 +79,6 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   }
   const auto times = store->take_velocities();
   auto &bodies = store->bodies();
-  bodies.clear_loads(0, atom->nlocal + atom->nghost);
   const double no_torque[3] = {};
   for (const auto &load : store->due) bodies.add_load(load.row, load.f, no_torque);
   if (wet) {
@@ -104,7 +103,7 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
     bodies.add_loads_to_all(n, reinterpret_cast<double(*)[3]>(atom->f[0]),
                             reinterpret_cast<double(*)[3]>(atom->torque[0]));
   if (tallied) tally(eflag);
-  parts = {};    // memory is for steps that look at them
+  parts = std::vector<apf::ContactParts>();    // memory is for steps that look at them
   if (ended) remove_ended(false);
   if (ruptured) bridges.remove_ruptured(false);
   parts_step = -1;
@@ -141,7 +140,7 @@ void PairGranularAdhesive::detect(bool all, double step)
 void PairGranularAdhesive::find_fastest(apf::LookAhead &ahead)
 {
   store->bodies().with_rows([&](const auto *rows) {
-    ahead.fastest = std::max(ahead.fastest, contacts.fastest(rows, update->dt, [&](int k) {
+    ahead.fastest = std::max(ahead.fastest, contacts.find_fastest(rows, update->dt, [&](int k) {
       return ahead.acceleration[contacts.i[k]] + ahead.acceleration[contacts.j[k]];
     }));
   });
@@ -164,10 +163,10 @@ bool PairGranularAdhesive::find_near(apf::LookAhead &ahead)
 
 void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
 {
+  contacts.find_stiffest(stiffest, [&](int k) {
+    return stiffest.acceleration[contacts.i[k]] + stiffest.acceleration[contacts.j[k]];
+  });
   store->bodies().with_rows([&](const auto *rows) {
-    contacts.find_stiffest(rows, stiffest, [&](int k) {
-      return stiffest.acceleration[contacts.i[k]] + stiffest.acceleration[contacts.j[k]];
-    });
     for (const int k : candidates.near) {
       const int i = candidates.i[k], j = candidates.j[k];
       const auto approach = apf::Approach::of(rows[i], rows[j], candidates.touch[k]);
@@ -208,16 +207,32 @@ void PairGranularAdhesive::build_candidates()
     bridges.begin_list();
   }
 
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const int *jlist = list->firstneigh[i];
-    for (int jj = 0; jj < list->numneigh[i]; jj++) {
-      if (force->special_lj[sbmask(jlist[jj])] == 0.0) continue;
-      const int j = jlist[jj] & NEIGHMASK;
-      const int k = candidates.add(i, j, radius[i] + radius[j]);
-      const auto *history = store->find(i, tag[j]);
-      if (history) close(k, *history);
-      if (wet) bridges.add_candidate(i, j);
+  int pairs = 0;
+  for (int ii = 0; ii < list->inum; ii++) pairs += list->numneigh[list->ilist[ii]];
+  candidates.reserve(pairs);
+
+  auto add = [&](int i, int jmasked) {
+    if (force->special_lj[sbmask(jmasked)] == 0.0) return;
+    const int j = jmasked & NEIGHMASK;
+    const int k = candidates.add(i, j, radius[i] + radius[j]);
+    const auto *history = store->find(i, tag[j]);
+    if (history) close(k, *history);
+    if (wet) bridges.add_candidate(i, j);
+  };
+  // First pairs of a few particles, then their second ones, and so on: contacts that share a body
+  // are not next to each other, where each would wait for the load that the one before puts on it.
+  constexpr int together = 32;
+  for (int first = 0; first < list->inum; first += together) {
+    const int end = std::min(first + together, list->inum);
+    bool more = true;
+    for (int jj = 0; more; jj++) {
+      more = false;
+      for (int ii = first; ii < end; ii++) {
+        const int i = list->ilist[ii];
+        if (jj >= list->numneigh[i]) continue;
+        add(i, list->firstneigh[i][jj]);
+        more = true;
+      }
     }
   }
   rebuild = false;
@@ -228,7 +243,7 @@ void PairGranularAdhesive::build_candidates()
 void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
 {
   const int i = candidates.i[k], j = candidates.j[k];
-  const int added = contacts.add(i, j, k, kind_of(i, j), history);
+  const int added = contacts.add(i, j, k, number_of_kind(i, j), history);
   contacts.set_crowding(added, bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0));
   candidates.closed[k] = 1;
   store->count_anew();
@@ -239,11 +254,11 @@ const ContactCoeff &PairGranularAdhesive::coeff_of(int i, int j) const
   return coefficients[atom->type[i]][atom->type[j]];
 }
 
-const apf::ContactKind &PairGranularAdhesive::kind_of(int i, int j)
+int PairGranularAdhesive::number_of_kind(int i, int j)
 {
   const int ti = atom->type[i], tj = atom->type[j];
-  return kinds.find(ti * (atom->ntypes + 1) + tj, coefficients[ti][tj].model,
-                    bodies_of(i, j, 1.0, 1.0));
+  return contacts.kinds.find(ti * (atom->ntypes + 1) + tj, coefficients[ti][tj].model,
+                             bodies_of(i, j, 1.0, 1.0));
 }
 
 /* ----------------------------------------------------------------------
@@ -452,7 +467,7 @@ void PairGranularAdhesive::init_style()
   check_scene(lmp, "Pair granular/adhesive", 2.0 * sizes.largest_radius());
   neck_max = reach_max = 0.0;    // init_one finds them
   wet = false;
-  kinds.forget();
+  contacts.kinds.forget();
   choice = apf::KernelChoice();
   choice.planar = domain->dimension == 2;
 }

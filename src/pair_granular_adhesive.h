@@ -60,14 +60,13 @@ class PairGranularAdhesive : public Pair {
   // for its bridges; of two atoms, or of a candidate
   const ContactCoeff &coeff_of(int i, int j) const;
   apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
-  const apf::ContactKind &kind_of(int i, int j);
+  const apf::ContactKind &kind_of(int i, int j) { return contacts.kinds[number_of_kind(i, j)]; }
   bool is_closed(int candidate) const { return candidates.closed[candidate]; }
 
  private:
   void parse_types(const char *word, int iarg, int &lo, int &hi) const;
   apf::Candidates candidates;    // pairs of the neighbour list
   apf::ContactList contacts;
-  apf::ContactKinds kinds;
   apf::KernelChoice choice;
   apf::ContactKernel kernel = nullptr;
   PairBridges bridges;
@@ -94,6 +93,7 @@ class PairGranularAdhesive : public Pair {
   void build_candidates();
   void detect(bool all, double step);
   void close(int candidate, const apf::ContactHistory &);
+  int number_of_kind(int i, int j);    // in contacts.kinds
   void share_masses();
   void correct_ends(double step);
   double init_bridge(int i, int j, double ri, double rj);

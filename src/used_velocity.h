@@ -9,92 +9,122 @@
 #include "atom.h"
 #include "contact/bodies.h"
 
-#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
+#include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 class UsedVelocity {
  public:
-  static constexpr int size = 15;    // doubles per atom that migrate with it
+  static constexpr int size = 10;    // doubles per atom that migrate with it
 
-  apf::Bodies bodies;    // rows: local and ghost atoms
+  // rows: local and ghost atoms; there are none before the first use
+  apf::Bodies bodies;
 
   explicit UsedVelocity(bool planar) : bodies(planar) {}
 
   void grow(int nmax)
   {
     if (static_cast<int>(end.size()) >= nmax) return;
-    end.resize(nmax);
-    due.resize(nmax);
-    bodies.resize(nmax);
+    end.resize(nmax, unknown);
+    if (bodies.size()) bodies.resize(nmax);
   }
 
-  // positions and velocities as they are now
+  // positions and velocities as they are now, no loads
   void use(const Atom *atom)
   {
-    use_positions(atom);
+    make_rows();
     const int n = atom->nlocal + atom->nghost;
-    if (n) bodies.set_motion_all(n, rows_of(atom->v), rows_of(atom->omega));
+    if (n) bodies.set_all(n, rows_of(atom->x), rows_of(atom->v), rows_of(atom->omega));
   }
 
   void use_positions(const Atom *atom)
   {
+    make_rows();
     const int n = atom->nlocal + atom->nghost;
     if (n) bodies.place_all(n, rows_of(atom->x));
+    bodies.clear_loads(0, n);
   }
 
   // true if all local atoms have the velocities with which the last run ended
   bool goes_on(const Atom *atom) const
   {
     for (int i = 0; i < atom->nlocal; i++)
-      if (now(atom, i) != end[i]) return false;
+      if (end[i] != now(atom, i)) return false;
     return true;
   }
 
   // at the end of a run and before a restart file; loads [atoms][3]: see apf::DueLoad
   void remember(const Atom *atom, const std::vector<double> &loads)
   {
+    due.clear();
     for (int i = 0; i < atom->nlocal; i++) {
-      end[i] = now(atom, i);
-      std::copy_n(&loads[3 * i], 3, due[i].begin());
+      if (bodies.size()) end[i] = now(atom, i);
+      set_due(i, &loads[3 * i]);
     }
   }
-  const std::array<double, 3> &due_load(int i) const { return due[i]; }
+  std::array<double, 3> due_load(int i) const
+  {
+    const auto found = due.find(i);
+    return found == due.end() ? std::array<double, 3>{} : found->second;
+  }
 
   void insert(int i)
   {
-    end[i].fill(NAN);    // matches nothing
-    due[i].fill(0.0);
+    end[i] = unknown;
+    due.erase(i);
   }
   void copy(int from, int to)
   {
     end[to] = end[from];
-    due[to] = due[from];
-    bodies.copy_row(bodies, from, to);
+    if (!due.empty()) set_due(to, due_load(from).data());
+    if (bodies.size()) bodies.copy_row(bodies, from, to);
   }
 
   int pack(int i, double *buf) const
   {
-    buf = std::copy(end[i].begin(), end[i].end(), buf);
-    buf = std::copy(due[i].begin(), due[i].end(), buf);
-    bodies.motion(i, buf, buf + 3);
+    memcpy(buf, &end[i], sizeof(double));
+    const auto load = due_load(i);
+    std::copy(load.begin(), load.end(), buf + 1);
+    std::fill(buf + 4, buf + size, 0.0);
+    if (bodies.size()) bodies.motion(i, buf + 4, buf + 7);
     return size;
   }
 
   int unpack(int i, const double *buf)
   {
-    std::copy(buf, buf + 6, end[i].begin());
-    std::copy(buf + 6, buf + 9, due[i].begin());
-    bodies.set_motion(i, buf + 9, buf + 12);
+    memcpy(&end[i], buf, sizeof(double));
+    set_due(i, buf + 1);
+    if (end[i] != unknown) make_rows();
+    if (bodies.size()) bodies.set_motion(i, buf + 4, buf + 7);
     return size;
   }
 
+  double memory_usage() const    // [bytes]
+  {
+    return bodies.memory_usage() + end.capacity() * sizeof(uint64_t);
+  }
+
  private:
-  using Six = std::array<double, 6>;         // velocity and angular velocity
-  std::vector<Six> end;                      // at the end of the last run
-  std::vector<std::array<double, 3>> due;    // part of the loads then
+  // Velocities at the end of the last run are compared, not used: 64 bits of them are enough.
+  static constexpr uint64_t unknown = 0;
+  std::vector<uint64_t> end;
+  std::unordered_map<int, std::array<double, 3>> due;    // part of the loads then, if there is any
+
+  void make_rows()
+  {
+    if (bodies.size() == 0) bodies.resize(static_cast<int>(end.size()));
+  }
+  void set_due(int i, const double *load)
+  {
+    if (load[0] != 0.0 || load[1] != 0.0 || load[2] != 0.0)
+      due[i] = {load[0], load[1], load[2]};
+    else
+      due.erase(i);
+  }
 
   // LAMMPS's arrays are contiguous
   static const double (*rows_of(double **a))[3]
@@ -102,10 +132,16 @@ class UsedVelocity {
     return reinterpret_cast<const double(*)[3]>(a[0]);
   }
 
-  static Six now(const Atom *atom, int i)
+  static uint64_t now(const Atom *atom, int i)
   {
-    const double *u = atom->v[i], *w = atom->omega[i];
-    return {u[0], u[1], u[2], w[0], w[1], w[2]};
+    uint64_t hash = 1, bits[6];
+    memcpy(bits, atom->v[i], 3 * sizeof(double));
+    memcpy(bits + 3, atom->omega[i], 3 * sizeof(double));
+    for (const uint64_t value : bits) {
+      hash = (hash ^ value) * 0x9E3779B97F4A7C15ull;
+      hash ^= hash >> 29;
+    }
+    return hash == unknown ? unknown + 1 : hash;
   }
 };
 

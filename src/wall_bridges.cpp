@@ -161,8 +161,9 @@ double WallBridges::force_of_contact(int b, double overlap, double closing_speed
 {
   const int i = list.source[b], s = surface_of[b];
   if (!(wall->touched[i] >> s & 1)) return 0.0;
+  auto &kinds = wall->contacts.kinds;
   const auto &c =
-      wall->kinds.find(s, wall->coefficient.model, wall->bodies_of(i, s, atom->x[i])).constants;
+      kinds.constants(kinds.find(s, wall->coefficient.model, wall->bodies_of(i, s, atom->x[i])));
   if (overlap < c.break_overlap) return 0.0;
   const double step = (wall->lender ? wall->lender->times() : wall->times()).step;
   return apf::force_at(c, apf::jkr_root(overlap, c.inv_R, c.neck), closing_speed, step);

@@ -128,19 +128,21 @@ class Bodies {
     });
   }
 
-  // the first n rows at once; x, v, omega, f, torque are [n][3]
+  // the first n rows at once; x, v, omega, f, torque are [n][3]; set_all() leaves no loads
   void place_all(int n, const double (*x)[3])
   {
     with_rows([=](auto *row) {
       for (int i = 0; i < n; i++) copy(&x[i][0], row[i].x);
     });
   }
-  void set_motion_all(int n, const double (*v)[3], const double (*omega)[3])
+  void set_all(int n, const double (*x)[3], const double (*v)[3], const double (*omega)[3])
   {
     with_rows([=](auto *row) {
       for (int i = 0; i < n; i++) {
+        copy(&x[i][0], row[i].x);
         copy(&v[i][0], row[i].v);
         copy(&omega[i][3 - row->spin_dim], row[i].omega);
+        clear(row[i]);
       }
     });
   }
@@ -157,10 +159,7 @@ class Bodies {
   void clear_loads(int first, int last)
   {
     with_rows([=](auto *row) {
-      for (int i = first; i < last; i++) {
-        for (double &c : row[i].f) c = 0.0;
-        for (double &c : row[i].torque) c = 0.0;
-      }
+      for (int i = first; i < last; i++) clear(row[i]);
     });
   }
   // adds to f[3] and torque[3] the load of a row, or to the row a load f[3], torque[3]
@@ -194,6 +193,12 @@ class Bodies {
   }
 
  private:
+  template <class Row> static void clear(Row &row)
+  {
+    for (double &c : row.f) c = 0.0;
+    for (double &c : row.torque) c = 0.0;
+  }
+
   bool flat;
   std::vector<PlaneRow> plane;    // one of the two is used
   std::vector<SpaceRow> space;

@@ -6,6 +6,8 @@
 
 #include "../timestep/look_ahead.h"
 
+#include <algorithm>
+#include <cstring>
 #include <vector>
 
 namespace apf {
@@ -27,6 +29,14 @@ struct Candidates {
     near.clear();
   }
 
+  void reserve(int pairs)
+  {
+    i.reserve(pairs);
+    j.reserve(pairs);
+    touch.reserve(pairs);
+    closed.reserve(pairs);
+  }
+
   int add(int body_i, int body_j, double radius_sum)
   {
     i.push_back(body_i);
@@ -39,8 +49,16 @@ struct Candidates {
   // calls touches(k) for every pair that is not closed and overlaps
   template <class Row, class Action> void detect(const Row *rows, Action touches) const
   {
-    for (int k = 0; k < size(); k++)
-      if (!closed[k] && overlap(k, rows)) touches(k);
+    constexpr int together = 8;    // most pairs of an aggregate are closed: these at a glance
+    static constexpr char all_closed[together] = {1, 1, 1, 1, 1, 1, 1, 1};
+    const int n = size();
+    for (int first = 0; first < n; first += together) {
+      const int end = std::min(first + together, n);
+      if (end - first == together && std::memcmp(&closed[first], all_closed, together) == 0)
+        continue;
+      for (int k = first; k < end; k++)
+        if (!closed[k] && overlap(k, rows)) touches(k);
+    }
   }
   // the same for the pairs near each other
   template <class Row, class Action> void detect_near(const Row *rows, Action touches) const

@@ -51,7 +51,7 @@ template <class Row> struct Members {
 class GroupConstants {
  public:
   GroupConstants() { std::fill(loaded, loaded + width, -1); }
-  APF_INLINE const ConstantsOf<Real> &of(const KindsInUse &kinds, const int (&wanted)[width])
+  APF_INLINE const ConstantsOf<Real> &of(const ContactKinds &kinds, const int (&wanted)[width])
   {
     if (std::memcmp(wanted, loaded, sizeof(loaded)) != 0) load(kinds, wanted);
     return constants;
@@ -63,7 +63,7 @@ class GroupConstants {
   ConstantsOf<Real> constants;
   int loaded[width];
 
-  __attribute__((noinline)) void load(const KindsInUse &kinds, const int (&wanted)[width])
+  __attribute__((noinline)) void load(const ContactKinds &kinds, const int (&wanted)[width])
   {
     const double *from[width];
     for (int l = 0; l < width; l++)

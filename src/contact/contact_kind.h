@@ -23,34 +23,91 @@ struct ContactKind {
   }
 };
 
-// Direct-mapped: a kind that falls on the place of another replaces it.
+// The kinds in use, each with the number of its contacts, and the last one met at each place of a
+// hash. A kind that was pushed from there while it has contacts may be in here twice.
 class ContactKinds {
  public:
-  // the kind of a contact under the law of that number; the reference holds until the next call
-  const ContactKind &find(int law, const ContactModel &model, const ContactBodies &bodies)
+  const ContactKind &operator[](int n) const { return entries[n].kind; }
+  const ContactConstants &constants(int n) const { return entries[n].kind.constants; }
+
+  // number of the kind of a contact under the law of that number; without use() it holds until the
+  // next call
+  int find(int law, const ContactModel &model, const ContactBodies &bodies)
   {
-    Place &place = places[hash(law, bodies) % places.size()];
-    if (place.law != law || memcmp(&place.bodies, &bodies, sizeof(bodies)) != 0)
-      place = {law, bodies, ContactKind::make(model, bodies)};
-    return place.kind;
+    const uint64_t key = hash(law, bodies);
+    int &n = recent[key % recent.size()];
+    if (n >= 0 && entries[n].key == key) return n;
+    if (n < 0 || entries[n].contacts > 0) n = place();
+    entries[n] = {key, ContactKind::make(model, bodies), 0};
+    return n;
   }
 
-  void forget() { places.assign(places.size(), Place()); }    // laws have changed
+  // one that nobody is to find
+  int add(const ContactKind &kind)
+  {
+    const int n = place();
+    entries[n] = {0, kind, 0};
+    return n;
+  }
+
+  void use(int n) { entries[n].contacts++; }
+  void release(int n)
+  {
+    if (--entries[n].contacts == 0 && !found(n)) free.push_back(n);
+  }
+  void release_all()
+  {
+    for (auto &entry : entries) entry.contacts = 0;
+    find_free();
+  }
+
+  void forget()    // laws have changed
+  {
+    recent.assign(recent.size(), -1);
+    find_free();
+  }
+
+  double memory_usage() const    // [bytes]
+  {
+    return entries.capacity() * sizeof(Entry) + (free.capacity() + recent.size()) * sizeof(int);
+  }
 
  private:
-  struct Place {
-    int law = -1;
-    ContactBodies bodies{};
-    ContactKind kind{};
+  struct Entry {
+    uint64_t key;    // hash of law and bodies: 64 bits, compared with those of one place only
+    ContactKind kind;
+    int contacts;
   };
-  std::vector<Place> places = std::vector<Place>(1024);
+  std::vector<Entry> entries;
+  std::vector<int> free;                                   // entries that nobody finds or uses
+  std::vector<int> recent = std::vector<int>(1024, -1);    // by hash: which entry was the last
+
+  bool found(int n) const { return recent[entries[n].key % recent.size()] == n; }
+  void find_free()
+  {
+    free.clear();
+    for (int n = 0; n < static_cast<int>(entries.size()); n++)
+      if (entries[n].contacts == 0 && !found(n)) free.push_back(n);
+  }
+  int place()
+  {
+    if (free.empty()) {
+      entries.emplace_back();
+      return static_cast<int>(entries.size()) - 1;
+    }
+    const int n = free.back();
+    free.pop_back();
+    return n;
+  }
 
   static uint64_t hash(int law, const ContactBodies &bodies)
   {
-    uint64_t h = law, bits;
-    for (const double value : {bodies.radius_i, bodies.radius_j, bodies.m, bodies.crowding}) {
-      memcpy(&bits, &value, sizeof(bits));
-      h = (h ^ bits) * 0x9E3779B97F4A7C15ull;
+    constexpr int n = sizeof(ContactBodies) / sizeof(uint64_t);
+    static_assert(sizeof(ContactBodies) % sizeof(uint64_t) == 0, "doubles only");
+    uint64_t bits[n], h = law;
+    memcpy(bits, &bodies, sizeof(bodies));
+    for (const uint64_t value : bits) {
+      h = (h ^ value) * 0x9E3779B97F4A7C15ull;
       h ^= h >> 29;
     }
     return h;

@@ -13,7 +13,6 @@
 #include "bodies.h"
 #include "contact_kind.h"
 
-#include <cstring>
 #include <vector>
 
 namespace apf {
@@ -57,74 +56,6 @@ struct ContactParts {
   double twisting_energy;    // of the twisting spring                             [energy]
 };
 
-// The different kinds among the contacts of a list, counted. Most lists have few kinds; a kind may
-// be in here twice.
-class KindsInUse {
- public:
-  const ContactKind &operator[](int n) const { return entries[n].kind; }
-  const ContactConstants &constants(int n) const { return entries[n].kind.constants; }
-
-  // number of the kind, which gets one contact more
-  int use(const ContactKind &kind)
-  {
-    int &n = recent[hash(kind) % recent.size()];
-    if (n >= static_cast<int>(entries.size()) || !entries[n].contacts ||
-        !same(entries[n].kind, kind))
-      n = place(kind);
-    entries[n].contacts++;
-    return n;
-  }
-  void release(int n)
-  {
-    if (--entries[n].contacts == 0) free.push_back(n);
-  }
-  void clear()
-  {
-    entries.clear();
-    free.clear();
-  }
-  double memory_usage() const    // [bytes]
-  {
-    return entries.capacity() * sizeof(Entry) + (free.capacity() + recent.size()) * sizeof(int);
-  }
-
- private:
-  struct Entry {
-    ContactKind kind;
-    int contacts;
-  };
-  std::vector<Entry> entries;
-  std::vector<int> free;                               // entries without contacts
-  std::vector<int> recent = std::vector<int>(1024);    // by hash: where to look for a kind first
-
-  static bool same(const ContactKind &a, const ContactKind &b)
-  {
-    return std::memcmp(&a, &b, sizeof(a)) == 0;
-  }
-  static uint64_t hash(const ContactKind &kind)
-  {
-    const ContactConstants &c = kind.constants;
-    uint64_t h = 0, bits;
-    for (const double value : {c.radius_sum, c.radius_i, c.K, c.eta, c.mu, c.roll_eta}) {
-      std::memcpy(&bits, &value, sizeof(bits));
-      h = (h ^ bits) * 0x9E3779B97F4A7C15ull;
-      h ^= h >> 29;
-    }
-    return h;
-  }
-  int place(const ContactKind &kind)
-  {
-    if (free.empty()) {
-      entries.push_back({kind, 0});
-      return static_cast<int>(entries.size()) - 1;
-    }
-    const int n = free.back();
-    free.pop_back();
-    entries[n].kind = kind;
-    return n;
-  }
-};
-
 class ContactList {
  public:
   static constexpr int width = 16;    // contacts of a block
@@ -144,27 +75,28 @@ class ContactList {
   std::vector<int> i, j;      // rows of the two bodies
   std::vector<int> source;    // caller's mark: candidate or wall the contact came from
   std::vector<int> kind;      // of `kinds`
-  KindsInUse kinds;
+  ContactKinds kinds;
   std::vector<Block> blocks;
   std::vector<SpaceBlock> space_blocks;
 
   int size() const { return static_cast<int>(i.size()); }
 
-  int add(int body_i, int body_j, int mark, const ContactKind &kind_of, const ContactHistory &h)
+  // kind_of: a number of `kinds`
+  int add(int body_i, int body_j, int mark, int kind_of, const ContactHistory &h)
   {
     const int k = size();
-    i.push_back(body_i);
-    j.push_back(body_j);
-    source.push_back(mark);
-    ContactKind alone = kind_of;
-    alone.constants.crowd_mass = alone.constants.crowd_roll = 0.0;
-    kind.push_back(kinds.use(alone));
+    append(i, body_i);
+    append(j, body_j);
+    append(source, mark);
+    append(kind, kind_of);
+    kinds.use(kind_of);
     if (k % width == 0) {
-      blocks.emplace_back();
-      space_blocks.emplace_back();
+      append(blocks, {});
+      append(space_blocks, {});
     }
     blocks[k / width].overlap[k % width] = 0.0;
-    set_crowding(k, kind_of.constants.crowd_mass, kind_of.constants.crowd_roll);
+    const auto &c = kinds.constants(kind_of);
+    set_crowding(k, c.crowd_mass, c.crowd_roll);
     set_history(k, h);
     return k;
   }
@@ -191,7 +123,7 @@ class ContactList {
   void clear()
   {
     for (auto *array : {&i, &j, &source, &kind}) array->clear();
-    kinds.clear();
+    kinds.release_all();
     blocks.clear();
     space_blocks.clear();
   }
@@ -209,13 +141,15 @@ class ContactList {
   }
 
   // the fastest that the surfaces of contacts may come to move within a time step
+  // acceleration(k): largest that the surfaces in contact k have relative to each other
   template <class Row, class Acceleration>
-  double fastest(const Row *rows, double step, Acceleration acceleration) const
+  double find_fastest(const Row *rows, double step, Acceleration acceleration)
   {
     double most = 0.0;
+    speed2.resize(size());
     for (int k = 0; k < size(); k++) {
       const auto &c = kinds.constants(kind[k]);
-      const double v2 =
+      const double v2 = speed2[k] =
           contact_speed2(rows[i[k]], rows[j[k]], c.radius_i, c.radius_sum - c.radius_i);
       const double v = std::sqrt(v2) + acceleration(k) * step;
       if (v <= most) continue;
@@ -225,10 +159,9 @@ class ContactList {
     return most;
   }
 
-  // which contact demands the finest step, with the bodies as they move now
-  // acceleration(k): largest that the surfaces in contact k have relative to each other
-  template <class Row, class Acceleration>
-  void find_stiffest(const Row *rows, Stiffest &stiffest, Acceleration acceleration) const
+  // which contact demands the finest step, with the bodies as find_fastest() saw them
+  template <class Acceleration>
+  void find_stiffest(Stiffest &stiffest, Acceleration acceleration) const
   {
     const bool adaptive = stiffest.rule.tolerance > 0.0;
     for (int k = 0; k < size(); k++) {
@@ -236,10 +169,7 @@ class ContactList {
         stiffest.include(mode(k), overlap(k), 0.0);
         continue;
       }
-      const auto &c = kinds.constants(kind[k]);
-      const double speed2 =
-          contact_speed2(rows[i[k]], rows[j[k]], c.radius_i, c.radius_sum - c.radius_i);
-      stiffest.include(mode(k), overlap(k), speed2, acceleration(k), [&] {
+      stiffest.include(mode(k), overlap(k), speed2[k], acceleration(k), [&] {
         return energy_above_rest(k) / mode(k).mass;
       });
     }
@@ -284,12 +214,11 @@ class ContactList {
     set_history(k, h);
   }
 
-  void change_kind(int k, const ContactKind &kind_of)
+  void change_kind(int k, int kind_of)
   {
-    ContactKind alone = kind_of;
-    alone.constants.crowd_mass = alone.constants.crowd_roll = 0.0;
+    kinds.use(kind_of);
     kinds.release(kind[k]);
-    kind[k] = kinds.use(alone);
+    kind[k] = kind_of;
   }
 
   // other contacts of the two bodies have come or gone
@@ -304,11 +233,19 @@ class ContactList {
   // [bytes]
   double memory_usage() const
   {
-    return i.capacity() * 4.0 * sizeof(int) +
+    return i.capacity() * 4.0 * sizeof(int) + speed2.capacity() * sizeof(double) +
         blocks.capacity() * (sizeof(Block) + sizeof(SpaceBlock)) + kinds.memory_usage();
   }
 
  private:
+  std::vector<double> speed2;    // of the surfaces in contact, squared      [velocity^2]
+
+  // Room for a quarter more: there may be millions, and doubling would leave half of it empty.
+  template <class Value> static void append(std::vector<Value> &to, const Value &value)
+  {
+    if (to.size() == to.capacity()) to.reserve(to.size() + to.size() / 4 + width);
+    to.push_back(value);
+  }
   void set_crowding(int k, double mass, double roll)
   {
     blocks[k / width].crowd_mass[k % width] = mass;

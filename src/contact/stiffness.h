@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <initializer_list>
 #include <utility>
-#include <vector>
 
 namespace apf {
 
@@ -64,7 +63,7 @@ struct Stiffest {
   StepRule rule;
   double step = 0.0;    // the particle step                                     [time]
   double v45 = 0.0;     // v^(4/5)                                    [velocity^(4/5)]
-  std::vector<double> acceleration;    // of each body's surface, where there is a tolerance
+  const double *acceleration = nullptr;    // of each body's surface    [velocity/time]
   double frequency2 = 0.0;    // largest of all contacts, squared                   [1/time^2]
   double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
   ContactMode mode = NONE;    // of the contact that demands it

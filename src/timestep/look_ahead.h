@@ -18,7 +18,8 @@
 
 namespace apf {
 
-enum Activity : char { FREE = 0, ACTIVE = 1, NEAR_ACTIVE = 2 };
+// in this order, so that of two findings about a body the larger holds
+enum Activity : char { FREE, NEAR, ACTIVE };
 
 struct LookAhead {
   double reach = 0.0;      // safety factor x particle step                            [time]
@@ -51,7 +52,7 @@ struct LookAhead {
   }
   void come_near(int i)
   {
-    if (activity[i] == FREE) activity[i] = NEAR_ACTIVE;
+    activity[i] = std::max<char>(activity[i], NEAR);
     used[i] = 1;
   }
 };

@@ -72,7 +72,7 @@ struct Crowd {
       h.twisting = choice.planar ? 0.0 : 0.1 * u(random);
     }
     const auto pair = ContactBodies::pair(r, r, 1.0 + 0.5 * u(random), 0.3);
-    list.add(i, j, k, ContactKind::make(model, pair), h);
+    list.add(i, j, k, list.kinds.find(0, model, pair), h);
   }
 
   // how many contacts have ended
@@ -95,7 +95,8 @@ struct Crowd {
     const ContactList all = list;
     for (int k = 0; k < all.size(); k++) {
       list.clear();
-      list.add(all.i[k], all.j[k], all.source[k], {all.constants_of(k), {}}, all.history_of(k));
+      list.add(all.i[k], all.j[k], all.source[k], list.kinds.add({all.constants_of(k), {}}),
+               all.history_of(k));
       evaluate(dt);
       for (size_t c = 0; c < f.size(); c++) {
         sum_f[c] += f[c];

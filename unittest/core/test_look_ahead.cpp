@@ -105,7 +105,7 @@ TEST(LookAhead, one_that_may_be_struck_is_near)
   pairs.find_near(ahead);
   EXPECT_EQ(ahead.activity[0], ACTIVE);
   EXPECT_EQ(ahead.activity[1], ACTIVE);
-  EXPECT_EQ(ahead.activity[2], NEAR_ACTIVE);
+  EXPECT_EQ(ahead.activity[2], NEAR);
   EXPECT_EQ(ahead.activity[3], FREE);
   for (int i = 0; i < 4; i++) EXPECT_EQ(ahead.used[i] != 0, ahead.activity[i] != FREE) << i;
 }

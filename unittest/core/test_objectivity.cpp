@@ -62,7 +62,7 @@ struct RigidChain {
       const Vec3 n = unit(direction), t = unit(cross(n, {0.3, 0.5, -0.8}));
       const int k = static_cast<int>(start.size());
       start.push_back(start.back() + (2.0 * r - normal.equilibrium_overlap()) * n);
-      list.add(k - 1, k, 0, {constants, {}}, loaded(n, t));
+      list.add(k - 1, k, 0, list.kinds.add({constants, {}}), loaded(n, t));
     }
     for (auto *array : {&x, &v, &omega, &f, &torque}) array->assign(3 * start.size(), 0.0);
   }

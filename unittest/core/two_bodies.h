@@ -130,7 +130,7 @@ struct TwoBodies {
 
   void touch(const apf::ContactHistory &history = {})
   {
-    list.add(0, 1, 0, {constants, {}}, history);
+    list.add(0, 1, 0, list.kinds.add({constants, {}}), history);
   }
 
   // Sees the same contact from the other body.
@@ -141,7 +141,7 @@ struct TwoBodies {
     std::swap(bodies.radius_i, bodies.radius_j);
     constants = apf::ContactConstants::make(model, bodies);
     list.clear();
-    list.add(forwards, !forwards, 0, {constants, {}}, history);
+    list.add(forwards, !forwards, 0, list.kinds.add({constants, {}}), history);
   }
 
   // The kernel alone; velocities are older than positions by `behind`.

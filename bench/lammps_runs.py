@@ -1,0 +1,108 @@
+"""Runs of LAMMPS for the scripts here: command lines, logs, kept results."""
+import json
+import os
+import re
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+CHANNEL = HERE.parent / "examples" / "channel" / "in.channel"
+
+
+def stop(reason):
+    """Ends with exit code 1 and a message."""
+    sys.exit(f"{Path(sys.argv[0]).name}: {reason}")
+
+
+def prose(text):
+    """Lines of a text."""
+    return textwrap.wrap(" ".join(text.split()), 100)
+
+
+class Failure(Exception):
+    """A run of LAMMPS that ended with an error."""
+
+
+def environment():
+    """Environment of a run: one thread a rank, and what Open MPI wants of root."""
+    return dict(os.environ, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
+                OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1")
+
+
+def lammps_command(lmp, script, variables, log, ranks=1):
+    """Command line of a run."""
+    launch = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
+    words = [w for name, value in variables.items() for w in ("-var", name, str(value))]
+    return [*launch, lmp, "-in", str(script), "-log", str(log), "-screen", "none", *words]
+
+
+def check_log(log, done):
+    """Text of a log; Failure with LAMMPS's message if the run did not end well."""
+    text = log.read_text() if log.exists() else ""
+    error = re.search(r"^ERROR.*", text + "\n" + done.stdout + done.stderr, re.M)
+    if error or done.returncode != 0:
+        raise Failure(error[0] if error else f"exit code {done.returncode}: {done.stderr[-300:]}")
+    return text
+
+
+def run_lammps(lmp, script, variables, folder, ranks=1):
+    """Runs a script and gives its log."""
+    log = folder / "log.run"
+    log.unlink(missing_ok=True)
+    done = subprocess.run(lammps_command(lmp, script, variables, log, ranks), cwd=folder,
+                          env=environment(), capture_output=True, text=True)
+    return check_log(log, done)
+
+
+def read_log(text):
+    """Loop time [s], share of it on a core, and what fix nve/sphere/mts says."""
+    loop = re.findall(r"^Loop time of ([\d.e+-]+)", text, re.M)
+    found = re.search(r"mts \S+: (\d+) particle steps of \S+, (\d+) collision steps.*\n"
+                      r" +sub-stepped ([\d.]+) %.*contacts found late (\d+)", text)
+    cpu = re.findall(r"^([\d.]+)% CPU use", text, re.M)
+    out = {"loop": float(loop[-1]), "cpu": float(cpu[-1]) / 100}
+    if found:
+        particle, collision, share, late = (float(word) for word in found.groups())
+        out.update(Lambda=collision / particle, x_c=share / 100, late=int(late))
+    return out
+
+
+def read_time(result):
+    """What of a run's result depends on the machine."""
+    return {name: result[name] for name in ("loop", "cpu", "Lambda", "x_c") if name in result}
+
+
+def processor():
+    """Name of the processor."""
+    found = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
+    return found[1] if found else "unknown processor"
+
+
+# ---------------------------------------------------------------------- results of runs
+
+
+class Store:
+    """Results of runs, one JSON file each; failures are kept as {"failed": reason}."""
+
+    def __init__(self, folder, wanted):
+        self.folder, self.wanted = folder, wanted
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def get(self, name, make, kind="errors"):
+        """Result of the run of that name; None if there is none and that kind is not wanted."""
+        path = self.folder / f"{re.sub('[^A-Za-z0-9.+-]+', '_', name)}.json"
+        if path.exists():
+            return json.loads(path.read_text())
+        if kind not in self.wanted:
+            return None
+        print(f"  {name}", file=sys.stderr, flush=True)
+        try:
+            result = make()
+        except Failure as failure:
+            result = {"failed": str(failure)}
+        draft = path.with_suffix(".draft")
+        draft.write_text(json.dumps(result))
+        draft.replace(path)
+        return result

@@ -1,0 +1,182 @@
+"""Tables and plot of speed_error.py."""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from channel_runs import QUANTITIES
+from impacts import ALPHA, MU, THETA, Contact
+from lammps_runs import processor, prose
+
+COLOURS = {"single rate": "#000000", "respa": "#E69F00", "mts collision N": "#0072B2",
+           "mts auto": "#009E73", "mts tolerance": "#D55E00", "mts auto, f2": "#CC79A7"}
+MARKERS = dict(zip(COLOURS, "sDov^P"))    # of families in the plot
+
+
+# ---------------------------------------------------------------------- tables
+
+
+def percent(value, digits=2):
+    """A share as text in percent."""
+    return "-" if value is None or np.isnan(value) else f"{100 * value:+.{digits}f}"
+
+
+def number(row, key, form):
+    """A value of a row as text."""
+    return format(row[key], form) if key in row else "-"
+
+
+def impact_lines(rows, columns):
+    """Table of one set of impacts; columns: name -> text of a row."""
+    lines = [f"{'scheme':<17}{'setting':<22}{'time [s]':>9}{'Lambda':>8}{'x_c':>7}"
+             + "".join(f"{name:>11}" for name in columns) + f"{'late':>6}"]
+    for scheme, row in rows:
+        head = f"{scheme.family:<17}{scheme.setting:<22}"
+        if "failed" in row:
+            lines.append(f"{head} failed: {row['failed']}"[:100])
+            continue
+        lines.append(head + f"{number(row, 'time', '.3f'):>9}{number(row, 'Lambda', '.1f'):>8}"
+                     f"{number(row, 'x_c', '.3f'):>7}"
+                     + "".join(f"{text(row):>11}" for text in columns.values())
+                     + f"{row['late'] if 'Lambda' in row else '-':>6}")
+    return lines
+
+
+def elastic_lines(args, rows):
+    """Text on the elastic impacts."""
+    columns = {"mean |de|": lambda row: f"{row['mean']:.5f}",
+               "max |de|": lambda row: f"{row['max']:.5f}",
+               "V_s pair %": lambda row: percent(row["V_s pair"]),
+               "V_s wall %": lambda row: percent(row["V_s wall"])}
+    pair, wall = Contact(50), Contact(50, wall=True)
+    return [*prose(f"""Elastic impacts, phi = 50: {args.impacts} head-on pairs and as many on a
+                   wall at 0.5 to 5 V_s, and both again at 0.7 to 1.3 V_s; random phases to the
+                   time grid. |de|: from sqrt(1 - (V_s/V)^2) at V > 1.2 V_s. V_s exact
+                   {pair.sticking:.4f} m/s (pair), {wall.sticking:.4f} m/s (wall); omega
+                   {pair.frequency:.4g}/s (normal, pair)."""), "", *impact_lines(rows, columns)]
+
+
+def damped_lines(args, known):
+    """Text on the damped impacts."""
+    columns = {"mean err": lambda row: f"{row['mean']:.5f}",
+               "max err": lambda row: f"{row['max']:.5f}",
+               "head-on de": lambda row: f"{row['head']:.5f}",
+               "V_s pair %": lambda row: percent(row["V_s pair"])}
+    contact = Contact(1.5, friction=True)
+    return [*prose(f"""Damped impacts with friction, phi = 1.5: alpha {ALPHA}, mu {MU}, theta
+                   {THETA}; {args.impacts} pairs at 0, 20, 40, 60 degrees and 1.2 to 3 V_s, and
+                   as many head-on at 0.7 to 1.6 V_s. err: relative velocity and spin x
+                   radius after the
+                   impact, over V, from the finest run (single rate, omega dt = {known['kappa']});
+                   head-on de: e from Runge-Kutta, which that run meets within
+                   {known['agree']:.1e}. V_s by Runge-Kutta
+                   {known['sticking'] * contact.sticking:.4f} m/s, {known['sticking']:.3f} times the
+                   elastic one; omega {contact.frequency:.4g}/s (tangential)."""), "",
+            *impact_lines(known["rows"], columns)]
+
+
+def channel_lines(args, channel):
+    """Text on the channel."""
+    names = "".join(f"{q + ' %':>10}" for q in QUANTITIES)
+    lines = [*prose(f"""Channel, phi = 50, to t = {args.time:g} L/U, {args.ranks} rank(s), up to
+                    {args.seeds} seed(s): particles in aggregates, aggregates, their mean size and
+                    particles in those on a wall, means over the last fifth, less those of the
+                    single rate at the report's step and the same seeds. The other columns are of
+                    one more run, to t = {args.clock:g}, as times want a quiet machine. Lambda:
+                    collision steps of a particle step; x_c: share of particles sub-stepped; bound
+                    on the speed-up: the report's steps in a particle step / (1 + x_c Lambda);
+                    model: Lambda/(1 + x_c Lambda), the bound where single rate has the same
+                    collision step; cpu: share of the time on a core, well below 100 on a busy
+                    machine."""), "",
+             f"{'scheme':<17}{'setting':<9}{'seeds':>5}{names}{'late':>6}{'time [s]':>10}"
+             f"{'Lambda':>8}{'x_c':>7}{'speed-up':>9}{'bound':>7}{'model':>7}{'cpu':>7}"]
+    for scheme, row in channel.rows:
+        head = f"{scheme.family:<17}{scheme.setting:<9}"
+        if "failed" in row:
+            lines.append(f"{head} failed: {row['failed']}"[:100])
+            continue
+        lines.append(head + f"{row['seeds']:>5}"
+                     + "".join(f"{percent(row[q]):>10}" for q in QUANTITIES)
+                     + f"{number(row, 'late', 'd'):>6}{number(row, 'time', '.1f'):>10}"
+                     f"{number(row, 'Lambda', '.1f'):>8}{number(row, 'x_c', '.3f'):>7}"
+                     f"{number(row, 'speedup', '.2f'):>9}{number(row, 'bound', '.2f'):>7}"
+                     f"{number(row, 'model', '.2f'):>7}{number(row, 'cpu', '.0%'):>7}")
+    lines.append(f"{'standard deviation':<31}"
+                 + "".join(f"{percent(channel.spread[q]).lstrip('+'):>10}" for q in QUANTITIES))
+    return lines
+
+
+def report(args, elastic, damped, channel):
+    """The text that is printed and written."""
+    blocks = [prose(f"""{processor()}; wall-clock times are LAMMPS's loop times, one core unless
+                    said otherwise, of runs of their own; impacts: least of {args.repeat}. Numbers
+                    beside single rate, respa, N and auto are omega dt of the stiffest mode at rest, beside f2 the
+                    particle step in d/U, else 0.1; late: contacts found late; blind: lookahead no.
+                    Impacts under respa rebuild the neighbour list every particle step: it is
+                    checked after the inner steps only.""")]
+    if elastic:
+        blocks.append(elastic_lines(args, elastic))
+    if damped and damped["rows"]:
+        blocks.append(damped_lines(args, damped))
+    if channel.rows:
+        blocks.append(channel_lines(args, channel))
+    return "\n\n".join("\n".join(block) for block in blocks) + "\n"
+
+
+# ---------------------------------------------------------------------- plot
+
+
+def draw_families(axis, rows, error, look):
+    """One line for each family of schemes; says whether there is any."""
+    any_points = False
+    for family in COLOURS:
+        points = [(row["time"], row[error]) for scheme, row in rows
+                  if scheme.family == family and "time" in row and row[error] > 0]
+        if points:
+            axis.plot(*zip(*points), marker=MARKERS[family], color=COLOURS[family], **look)
+            any_points = True
+    return any_points
+
+
+def draw_impacts_panel(axis, elastic, damped):
+    """Error of impacts over wall-clock time."""
+    if draw_families(axis, elastic, "mean", {"linestyle": "-"}):
+        axis.set(xscale="log", yscale="log")
+    if damped:
+        draw_families(axis, damped["rows"], "mean", {"linestyle": ":", "markerfacecolor": "none"})
+    axis.plot([], [], "k-", label="elastic: mean |e - exact|, V > 1.2 $V_s$")
+    axis.plot([], [], "k:", label="damped, oblique: mean error / V")
+    axis.set(title="impacts", xlabel="wall-clock time [s]", ylabel="mean error [-]")
+
+
+def draw_channel_panel(axis, channel):
+    """Difference from single rate over wall-clock time."""
+    rows = [(s, dict(row, rms=100 * row["rms"])) for s, row in channel.rows if "failed" not in row]
+    if draw_families(axis, rows, "rms", {"linestyle": "-"}):
+        axis.set(xscale="log", yscale="log")
+    if rows and "time" in rows[0][1]:
+        axis.axvline(rows[0][1]["time"], color="k", linewidth=0.9, linestyle="--",
+                     label="single rate at the report's step")
+        if not np.isnan(channel.spread["rms"]):
+            axis.axhline(100 * channel.spread["rms"], color="0.4", linestyle="-.", linewidth=0.9,
+                         label="its standard deviation over seeds")
+    axis.set(title="channel", xlabel="wall-clock time of a shorter run [s]",
+             ylabel="rms difference of four aggregate statistics [%]")
+
+
+def draw(elastic, damped, channel, path):
+    """Error over wall-clock time: impacts on the left, the channel on the right."""
+    figure, panels = plt.subplots(1, 2, figsize=(11.5, 5.4))
+    draw_impacts_panel(panels[0], elastic, damped)
+    draw_channel_panel(panels[1], channel)
+    for axis in panels:
+        axis.grid(True, which="major", color="0.9")
+        axis.spines[["top", "right"]].set_visible(False)
+        if axis.get_legend_handles_labels()[0]:
+            axis.legend(fontsize=8, frameon=False)
+    handles = [plt.Line2D([], [], color=COLOURS[f], marker=MARKERS[f], label=f) for f in COLOURS]
+    figure.legend(handles=handles, loc="lower center", ncol=len(COLOURS), frameon=False, fontsize=9)
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    figure.savefig(path, dpi=120)
+    plt.close(figure)

@@ -1,0 +1,98 @@
+// What fix nve/sphere/mts tells: the summary of a run, its global vector, restart files.
+
+#include "fix_nve_sphere_mts.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "fix_contacts.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+void FixNVESphereMTS::post_run()
+{
+  auto &run = run_totals;
+  if (run.particle_steps == 0) return;
+  bigint mine[2] = {run.active, run.atoms}, all[2];
+  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint late = late_contacts() - run.late_before;
+  if (comm->me != 0) return;
+  utils::logmesg(
+      lmp,
+      "{} {}: {} particle steps of {:.4g}, {} collision steps, {} to {} in a particle "
+      "step\n  sub-stepped {:.1f} % of the particles; finest step set by {} mode of contacts; "
+      "contacts found late {}\n",
+      command, id, run.particle_steps, update->dt, run.collision_steps, run.fewest, run.most,
+      100.0 * all[0] / std::max<bigint>(all[1], 1), run.mode, late);
+}
+
+bigint FixNVESphereMTS::late_contacts() const
+{
+  bigint mine = 0, all;
+  for (const auto *keeper : keepers) mine += keeper->late_so_far();
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all + late_before_restart;
+}
+
+/* ----------------------------------------------------------------------
+   collision steps of the last particle step, fraction of atoms sub-stepped in it, contacts,
+   collision steps and contacts found late since the fix was defined, largest omega dt
+------------------------------------------------------------------------- */
+
+double FixNVESphereMTS::compute_vector(int n)
+{
+  if (n == 0) return n_collision;
+  if (n == 1) {
+    bigint all;
+    MPI_Allreduce(&active_now, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+    return atom->natoms ? static_cast<double>(all) / atom->natoms : 0.0;
+  }
+  if (n == 2) {
+    double mine = 0.0, all;
+    for (auto *keeper : keepers) mine += keeper->contacts_here();
+    MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+    return all;
+  }
+  if (n == 3) return static_cast<double>(all_collision_steps);
+  if (n == 4) return static_cast<double>(late_contacts());
+  return kappa_now;
+}
+
+void *FixNVESphereMTS::extract(const char *name, int &dim)
+{
+  dim = 0;
+  if (strcmp(name, "fluid_every") == 0) return &fluid_every;
+  return nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixNVESphereMTS::write_restart(FILE *fp)
+{
+  const double late = static_cast<double>(late_contacts());
+  if (comm->me != 0) return;
+  const double state[3] = {static_cast<double>(n_collision),
+                           static_cast<double>(all_collision_steps), late};
+  const int bytes = sizeof(state);
+  fwrite(&bytes, sizeof(int), 1, fp);
+  fwrite(state, sizeof(double), 3, fp);
+}
+
+void FixNVESphereMTS::restart(char *buf)
+{
+  const auto *state = reinterpret_cast<const double *>(buf);
+  if (!fixed_steps) n_collision = static_cast<int>(state[0]);
+  all_collision_steps = static_cast<bigint>(state[1]);
+  late_before_restart = static_cast<bigint>(state[2]);
+}
+
+double FixNVESphereMTS::memory_usage()
+{
+  return activity.capacity() + slow_before.capacity() * sizeof(slow_before[0]) +
+      foresight.memory_usage();
+}

@@ -1,0 +1,264 @@
+#include "particle_look_ahead.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_contact_history.h"
+#include "force.h"
+#include "math_extra.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+// Distance looked ahead over that of the approach; LookAhead::struck has the bound for impacts.
+static constexpr double lookahead_safety = 2.0;
+static constexpr double big = 1.0e300;
+
+/* ---------------------------------------------------------------------- */
+
+ParticleLookAhead::ParticleLookAhead(LAMMPS *lmp, Fix *carrier, const char *command) :
+    Pointers(lmp), exchange(world), carrier(carrier), command(command)
+{
+}
+
+void ParticleLookAhead::init(FixContactHistory *of_pairs, const std::vector<FixContacts *> &all)
+{
+  history = of_pairs;
+  keepers = all;
+}
+
+void ParticleLookAhead::list_was_built()
+{
+  owners_known = false;
+  x_built.assign(&atom->x[0][0], &atom->x[0][0] + 3 * static_cast<size_t>(atom->nlocal));
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool ParticleLookAhead::look(double slow_largest)
+{
+  const bool rebuild = set_reach(find_extremes(slow_largest));
+  find_active();
+  if (!owners_known) know_owners();
+  std::vector<char> wanted(atom->nlocal, 0);
+  exchange.choose(ahead.used, domain, domain->deform_vremap, history->bodies(), wanted);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (wanted[i]) ahead.come_near(i);
+  return rebuild;
+}
+
+ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest) const
+{
+  double most[11];
+  std::fill(most, most + 11, -big);
+  double &speed2 = most[6], &acceleration2 = most[7], &displacement2 = most[8];
+  speed2 = displacement2 = 0.0;
+  acceleration2 = slow_largest * slow_largest;
+  auto &bodies = history->bodies();
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *v = atom->v[i], *x = atom->x[i], *built = &x_built[3 * i];
+    for (int c = 0; c < 3; c++) {
+      most[c] = std::max(most[c], v[c]);
+      most[3 + c] = std::max(most[3 + c], -v[c]);
+    }
+    most[9] = std::max(most[9], atom->rmass[i]);
+    most[10] = std::max(most[10], -atom->rmass[i]);
+    speed2 = std::max(speed2, MathExtra::lensq3(v));
+    const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
+    displacement2 = std::max(displacement2, MathExtra::lensq3(moved));
+    double load[3] = {}, torque[3] = {};
+    bodies.add_load_to(i, load, torque);
+    if (history->count(i) == 0.0 && MathExtra::lensq3(load) == 0.0)
+      acceleration2 = std::max(acceleration2,
+                               MathExtra::lensq3(atom->f[i]) / (atom->rmass[i] * atom->rmass[i]));
+  }
+  double all[11];
+  MPI_Allreduce(most, all, 11, MPI_DOUBLE, MPI_MAX, world);
+  double spread2 = 0.0;
+  for (int c = 0; c < 3; c++)
+    spread2 += all[c] > -big ? (all[c] + all[3 + c]) * (all[c] + all[3 + c]) : 0.0;
+  const double heaviest = all[9], lightest = -all[10];
+  const double struck = heaviest > 0.0 ? 2.0 * heaviest / (heaviest + lightest) : 1.0;
+  return {std::sqrt(spread2), std::sqrt(all[6]), std::sqrt(all[7]), std::sqrt(all[8]), struck};
+}
+
+/* ----------------------------------------------------------------------
+   the neighbour list must hold, at the start of each particle step, all pairs that are looked at:
+   it is built anew at the end of this step if it might not do so at the next
+------------------------------------------------------------------------- */
+
+bool ParticleLookAhead::set_reach(const Extremes &now)
+{
+  constexpr double growth = 1.2;    // of speeds within one step
+  const double dt = update->dt, skin = neighbor->skin;
+  ahead.reach = on ? lookahead_safety * dt : 0.0;
+  ahead.struck = on ? (1.0 + now.struck) * dt : 0.0;
+  ahead.margin = on ? history->longest_neck() : 0.0;
+  ahead.extra = now.acceleration * dt;
+  // walls are at rest
+  ahead.limit = keepers.size() > 1 ? std::max(now.spread, now.speed) : now.spread;
+  const double fastest = now.spread + ahead.extra;
+  const double distance = ahead.reach * fastest;
+  if (on && fastest * dt > skin)
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "{} {}: particles whose velocities differ by {:.3g} may approach by {:.3g} in a "
+        "timestep of {:.3g}, farther than the neighbor skin of {:.3g} lets contacts be seen: "
+        "use timestep {:.2g} or smaller, or neighbor {:.2g} bin or larger",
+        command, carrier->id, now.spread, fastest * dt, dt, skin, 0.4 * skin / fastest,
+        1.2 * distance);
+  if (distance > skin) {
+    ahead.reach = skin / fastest;
+    ahead.struck = std::min(ahead.struck, ahead.reach);
+    if (comm->me == 0 && !warned_of_skin)
+      error->warning(FLERR,
+                     "{} {}: looks ahead by {:.3g} timesteps instead of {}, for want of neighbor "
+                     "skin: use neighbor {:.2g} bin or larger, or a smaller timestep",
+                     command, carrier->id, ahead.reach / dt, lookahead_safety, 1.2 * distance);
+    warned_of_skin = true;
+  }
+  const double displacement = now.displacement + growth * now.speed * dt;
+  return domain->box_change_size || domain->box_change_shape ||
+      2.0 * displacement + growth * std::min(distance, skin) > skin;
+}
+
+/* ----------------------------------------------------------------------
+   which particles are sub-stepped
+------------------------------------------------------------------------- */
+
+void ParticleLookAhead::find_active()
+{
+  ahead.begin(atom->nlocal + atom->nghost);
+  find_accelerations();
+  const auto &bodies = history->bodies();
+  for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
+    double load[3] = {}, torque[3] = {};
+    bodies.add_load_to(i, load, torque);    // also of contacts that have ended
+    if (MathExtra::lensq3(load) > 0.0) ahead.come_near(i);
+  }
+  for (auto *keeper : keepers) keeper->find_fastest(ahead);
+  MPI_Allreduce(MPI_IN_PLACE, &ahead.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
+  ahead.limit = std::max(ahead.limit, ahead.fastest);
+  for (auto *keeper : keepers) keeper->find_approaching(ahead);
+  share_activity();
+  MPI_Allreduce(MPI_IN_PLACE, &ahead.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
+  // what may be struck may strike others, also on other ranks
+  for (int more = on; more;) {
+    more = 0;
+    for (auto *keeper : keepers) more |= keeper->find_near(ahead);
+    MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPI_INT, MPI_MAX, world);
+    if (more) share_activity();
+  }
+}
+
+// Owners learn what pairs of other ranks found, ghosts what their owners know.
+void ParticleLookAhead::share_activity()
+{
+  message = Message::ACTIVITY;
+  if (force->newton_pair) comm->reverse_comm(carrier, 1);
+  comm->forward_comm(carrier, 1);
+}
+
+void ParticleLookAhead::know_owners()
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  owner_rank.assign(nall, comm->me);
+  owner_row.resize(nall);
+  for (int i = 0; i < nlocal; i++) owner_row[i] = i;
+  message = Message::OWNERS;
+  comm->forward_comm(carrier, 2);
+  exchange.set_owners(nlocal, {owner_rank.begin() + nlocal, owner_rank.end()},
+                      {owner_row.begin() + nlocal, owner_row.end()});
+  owner_rank = owner_row = std::vector<int>();
+  owners_known = true;
+}
+
+// Contacts put loads on ghosts, which their owners are to have: before LAMMPS's forces come anew.
+void ParticleLookAhead::gather_loads()
+{
+  message = Message::LOADS;
+  if (force->newton_pair) comm->reverse_comm(carrier, 6);
+}
+
+/* ----------------------------------------------------------------------
+   by all forces as they stand, of local and ghost atoms: |f|/m + r |torque|/I
+------------------------------------------------------------------------- */
+
+void ParticleLookAhead::find_accelerations()
+{
+  auto &of = ahead.acceleration;
+  of.assign(atom->nlocal + atom->nghost, 0.0);
+  for (int i = 0; i < atom->nlocal; i++)
+    of[i] =
+        (MathExtra::len3(atom->f[i]) + 2.5 * MathExtra::len3(atom->torque[i]) / atom->radius[i]) /
+        atom->rmass[i];
+  message = Message::ACCELERATION;
+  comm->forward_comm(carrier, 1);
+}
+
+/* ---------------------------------------------------------------------- */
+
+int ParticleLookAhead::pack_forward(int n, const int *list, double *buf) const
+{
+  double *const start = buf;
+  for (int k = 0; k < n; k++) {
+    const int i = list[k];
+    if (message == Message::ACTIVITY) {
+      *buf++ = ahead.activity[i];
+    } else if (message == Message::ACCELERATION) {
+      *buf++ = ahead.acceleration[i];
+    } else {
+      *buf++ = owner_rank[i];
+      *buf++ = owner_row[i];
+    }
+  }
+  return static_cast<int>(buf - start);
+}
+
+void ParticleLookAhead::unpack_forward(int n, int first, const double *buf)
+{
+  for (int i = first; i < first + n; i++)
+    if (message == Message::ACTIVITY) {
+      ahead.activity[i] = static_cast<char>(*buf++);
+    } else if (message == Message::ACCELERATION) {
+      ahead.acceleration[i] = *buf++;
+    } else {
+      owner_rank[i] = static_cast<int>(*buf++);
+      owner_row[i] = static_cast<int>(*buf++);
+    }
+}
+
+int ParticleLookAhead::pack_reverse(int n, int first, double *buf)
+{
+  if (message == Message::ACTIVITY) {
+    std::copy_n(&ahead.activity[first], n, buf);
+    return n;
+  }
+  auto &bodies = history->bodies();
+  std::fill_n(buf, 6 * n, 0.0);
+  for (int k = 0; k < n; k++) bodies.add_load_to(first + k, buf + 6 * k, buf + 6 * k + 3);
+  bodies.clear_loads(first, first + n);
+  return 6 * n;
+}
+
+void ParticleLookAhead::unpack_reverse(int n, const int *list, const double *buf)
+{
+  for (int k = 0; k < n; k++)
+    if (message == Message::ACTIVITY)
+      ahead.activity[list[k]] = std::max(ahead.activity[list[k]], static_cast<char>(buf[k]));
+    else
+      history->bodies().add_load(list[k], buf + 6 * k, buf + 6 * k + 3);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ParticleLookAhead::memory_usage() const
+{
+  return ahead.activity.capacity() + ahead.used.capacity() +
+      (ahead.acceleration.capacity() + x_built.capacity()) * sizeof(double);
+}

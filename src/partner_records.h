@@ -1,0 +1,131 @@
+// What atoms remember of their partners, by ID, while rows mean nothing. Records of all atoms stand
+// in one array, chained from the last one of each atom to its first, so that no atom has memory of
+// its own. Chains are only ever added to at their heads: an atom that takes another's place may
+// share its chain.
+
+#ifndef APF_PARTNER_RECORDS_H
+#define APF_PARTNER_RECORDS_H
+
+#include "lmptype.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+// Memory is made of doubles alone, Memory::size of them.
+template <class Memory> class PartnerRecords {
+ public:
+  static constexpr int record_size = 1 + Memory::size;    // doubles
+  static_assert(sizeof(Memory) == Memory::size * sizeof(double), "packed as it is");
+
+  void grow(int atoms)
+  {
+    if (atoms > static_cast<int>(last.size())) last.resize(atoms, none);
+  }
+  void clear(int i) { last[i] = none; }
+
+  // all anew, with room for records
+  void start(size_t room)
+  {
+    forget_all();
+    records.clear();
+    records.reserve(room);
+  }
+  // the lists of contacts go on from here
+  void release()
+  {
+    if (records.capacity() == 0) return;
+    records = std::vector<Record>();    // = {} would keep the memory
+    forget_all();
+  }
+
+  void add(int i, tagint partner, const Memory &memory)
+  {
+    records.push_back({memory, partner, last[i]});
+    last[i] = static_cast<int>(records.size()) - 1;
+  }
+
+  // nullptr if atom i had nothing with partner
+  const Memory *find(int i, tagint partner) const
+  {
+    for (int n = last[i]; n != none; n = records[n].before)
+      if (records[n].partner == partner) return &records[n].memory;
+    return nullptr;
+  }
+
+  int count(int i) const
+  {
+    int sum = 0;
+    for (int n = last[i]; n != none; n = records[n].before) sum++;
+    return sum;
+  }
+
+  void copy(int from, int to) { last[to] = last[from]; }
+
+  // gives partners their new IDs; what was with atoms that are gone is dropped
+  void renumber(int i, const std::unordered_map<tagint, tagint> &new_id)
+  {
+    for (int *at = &last[i]; *at != none;) {
+      Record &record = records[*at];
+      const auto found = new_id.find(record.partner);
+      if (found == new_id.end()) {
+        *at = record.before;
+      } else {
+        record.partner = found->second;
+        at = &record.before;
+      }
+    }
+  }
+
+  // the last but k
+  void pack_record(int i, int k, double *buf) const
+  {
+    int n = last[i];
+    while (k--) n = records[n].before;
+    const auto *value = reinterpret_cast<const double *>(&records[n].memory);
+    buf[0] = ubuf(records[n].partner).d;
+    std::copy(value, value + Memory::size, buf + 1);
+  }
+  void unpack_record(int i, const double *buf)
+  {
+    Memory memory;
+    std::copy(buf + 1, buf + record_size, reinterpret_cast<double *>(&memory));
+    add(i, static_cast<tagint>(ubuf(buf[0]).i), memory);
+  }
+
+  int size(int i) const { return record_size * count(i); }    // of what pack writes
+  double *pack(int i, double *buf) const
+  {
+    const int n = count(i);
+    for (int k = 0; k < n; k++, buf += record_size) pack_record(i, k, buf);
+    return buf;
+  }
+  const double *unpack(int i, int n, const double *buf)
+  {
+    for (int k = 0; k < n; k++, buf += record_size) unpack_record(i, buf);
+    return buf;
+  }
+
+  double memory_usage() const    // [bytes]
+  {
+    return last.capacity() * sizeof(int) + records.capacity() * sizeof(Record);
+  }
+
+ private:
+  static constexpr int none = -1;
+  struct Record {
+    Memory memory;
+    tagint partner;
+    int before;    // the next of the same atom
+  };
+  std::vector<Record> records;
+  std::vector<int> last;    // of each atom: where its chain begins
+
+  void forget_all() { std::fill(last.begin(), last.end(), none); }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
