@@ -79,11 +79,11 @@ template <class Memory> class PartnerRecords {
     }
   }
 
-  // the last but k
+  // number k of atom i, in the order in which they were added: what is added does not renumber them
   void pack_record(int i, int k, double *buf) const
   {
     int n = last[i];
-    while (k--) n = records[n].before;
+    for (int later = count(i) - 1 - k; later > 0; later--) n = records[n].before;
     const auto *value = reinterpret_cast<const double *>(&records[n].memory);
     buf[0] = ubuf(records[n].partner).d;
     std::copy(value, value + Memory::size, buf + 1);
