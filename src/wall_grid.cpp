@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -27,11 +28,14 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
   choose(arrays, largest_pieces);
   size = apf::GridDistance::size(lattice);
   allocate(size * pieces.size());
+  reaches.assign(pieces.size(), -std::numeric_limits<double>::infinity());
   for (size_t n = 0; n < pieces.size(); n++)
     attempt([&] {
       const auto nodes = nodes_of(file->read(pieces[n], 1, 0, layers()), 1);
       apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
+      reaches[n] = *std::max_element(nodes.begin(), nodes.end());
     });
+  MPI_Allreduce(MPI_IN_PLACE, reaches.data(), reaches.size(), MPI_DOUBLE, MPI_MAX, world);
   file.reset();
   position = Error::NOLASTLINE;
 }
@@ -75,7 +79,8 @@ std::vector<apf::Surface> WallGrid::surfaces() const
 {
   std::vector<apf::Surface> all;
   for (size_t n = 0; n < pieces.size(); n++)
-    all.push_back(apf::Surface::gridded(apf::GridDistance(lattice, numbers.data() + n * size)));
+    all.push_back(
+        apf::Surface::gridded(apf::GridDistance(lattice, numbers.data() + n * size), reaches[n]));
   return all;
 }
 

@@ -272,6 +272,48 @@ TEST(WallGrid, edge_is_rolled_over_without_loss)
   }
 }
 
+// ... in space over an edge askew, and over the corner of a box where three edges meet; sliding
+// without friction, and rolling without slip
+TEST(WallGrid, edges_and_corner_of_a_box_are_rolled_over_without_loss)
+{
+  const auto box = [](const double *x) {    // fluid outside of x, y, z < 4
+    const double d[3] = {x[0] - 4.0, x[1] - 4.0, x[2] - 4.0};
+    const double inside = std::min(std::max({d[0], d[1], d[2]}), 0.0);
+    return inside + std::hypot(std::max(d[0], 0.0), std::max(d[1], 0.0), std::max(d[2], 0.0));
+  };
+  const double h = 4.5 - material.wall().delta_eq();
+  const std::array<double, 2> ways[] = {{0.96, 0.28}, {0.8, 0.6}, {0.7071, 0.7071}};
+  for (const std::string &law : {jkr, jkr + " sliding 1.0 "}) {
+    GridScene scene(3, 0.08, {{"distance", box}}, {{3.5, 3.5, h}}, law);
+    scene.sim.run("fix_modify wall energy yes\nthermo_modify norm no\ncompute k all ke\n"
+                  "compute w all erotate/sphere\n" +
+                  mts(20, dt / 8));
+    for (const auto &way : ways) {
+      // the last one meets the corner, the others an edge beside it
+      const double v = 2.0;
+      scene.sim.run("set atom 1 x " + digits(4.0 - 0.5 * way[0]) + " y " +
+                    digits(way[0] > 0.71 ? 3.5 : 4.0 - 0.5 * way[1]) + " z " + digits(h));
+      const bool rolls = law != jkr;
+      set_motion(scene.sim, 1, {v * way[0], v * way[1], 0.0},
+                 rolls ? std::vector<double>{-2.0 * v * way[1], 2.0 * v * way[0], 0.0}
+                       : std::vector<double>{0.0, 0.0, 0.0});
+      scene.sim.run("run 0");
+      const auto energy = [&] {
+        return scene.sim.value("c_k") + scene.sim.value("c_w");
+      };
+      const double kinetic = energy(), bound = scene.sim.value("pe");
+      const double begun = scene.sim.value("f_wall[8]");
+      scene.sim.run("run " +
+                    std::to_string(static_cast<int>(0.7 / scene.sim.lammps()->update->dt)));
+      const auto x = gather(scene.sim, "x");
+      EXPECT_LT(x[2], 4.2) << way[0];    // beside the box
+      EXPECT_EQ(scene.sim.value("f_wall[7]"), 1.0);
+      EXPECT_EQ(scene.sim.value("f_wall[8]"), begun);
+      EXPECT_NEAR((energy() + scene.sim.value("pe") - bound) / kinetic, 1.0, 1e-5) << way[0];
+    }
+  }
+}
+
 // A concave corner, one array for each side: two contacts, at rest where two planes hold it
 TEST(WallGrid, corner_holds_two_contacts)
 {
@@ -287,6 +329,38 @@ TEST(WallGrid, corner_holds_two_contacts)
     const auto x = gather(scene.sim, "x");
     EXPECT_NEAR(material.wall().force(1.5 - x[0]), 300.0 * mass, 1e-6 * 300.0 * mass);
     EXPECT_NEAR(material.wall().force(1.5 - x[1]), 400.0 * mass, 1e-6 * 400.0 * mass);
+  }
+}
+
+// ... and in space a corner of three sides, which the grid sees at an angle
+TEST(WallGrid, corner_of_three_sides_holds_three_contacts)
+{
+  // an orthonormal frame, and the weight in it
+  const double e[3][3] = {
+      {2 / 3., 2 / 3., 1 / 3.}, {-2 / 3., 1 / 3., 2 / 3.}, {1 / 3., -2 / 3., 2 / 3.}};
+  const double weight[3] = {300.0, 400.0, 500.0};
+  const double corner[3] = {3.0, 3.0, 3.0};
+  std::map<std::string, Shape> sides;
+  double x[3], g[3];
+  for (int c = 0; c < 3; c++) {
+    x[c] = corner[c] + 0.49 * (e[0][c] + e[1][c] + e[2][c]);
+    g[c] = -(weight[0] * e[0][c] + weight[1] * e[1][c] + weight[2] * e[2][c]);
+  }
+  const auto offset = [&](int n) {
+    return e[n][0] * corner[0] + e[n][1] * corner[1] + e[n][2] * corner[2];
+  };
+  for (int n = 0; n < 3; n++)
+    sides["distance_" + std::to_string(n)] = plane(e[n][0], e[n][1], e[n][2], offset(n));
+  GridScene scene(3, 0.25, sides, {{x[0], x[1], x[2]}}, jkr + "damping tsuji 0.1");
+  const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  scene.sim.run("fix nve all nve/sphere\nfix g all gravity " + digits(size) + " vector " +
+                digits(g[0]) + " " + digits(g[1]) + " " + digits(g[2]) + "\nrun 5000");
+  EXPECT_EQ(scene.sim.value("f_wall[7]"), 3.0);
+  const auto at_rest = gather(scene.sim, "x");
+  for (int n = 0; n < 3; n++) {
+    const double distance =
+        e[n][0] * at_rest[0] + e[n][1] * at_rest[1] + e[n][2] * at_rest[2] - offset(n);
+    EXPECT_NEAR(material.wall().force(0.5 - distance) / (weight[n] * mass), 1.0, 1e-6) << n;
   }
 }
 
@@ -346,6 +420,26 @@ TEST(WallGrid, coarse_grids_are_refused_and_the_advice_holds)
   }
   // R is a mean over the wall, known less exactly than the distance
   EXPECT_LT(worst, 3e-3 * delta_C);
+}
+
+// The box is empty at first: what an inlet will insert into the wall's group decides.
+TEST(WallGrid, grids_are_checked_for_particles_to_come)
+{
+  // smallest: diameter of what is inserted into a group; of the error that the wall asks for
+  const auto asked_for = [](double smallest, const std::string &group) {
+    GridScene scene(2, 0.4, {{"distance", circle}}, {}, jkr + "resolution 1e-4");
+    scene.sim.run("group other type 1\nfix air all flow/field uniform 1 0 0 density 1 viscosity 1\n"
+                  "fix in " +
+                  group + " inlet/flow x 0.0 air number 1 every 100 diameter uniform " +
+                  digits(smallest) +
+                  " 1.5 density 1 type 1 seed 7 outlet x 7.5\nfix nve all nve/sphere");
+    const std::string text = scene.sim.error_of("run 0");
+    const auto found = text.find("may touch, and ");
+    return found == std::string::npos ? 0.0 : std::stod(text.substr(found + 15));
+  };
+  for (const double d : {0.8, 1.4})
+    EXPECT_NEAR(asked_for(d, "all") / (1e-4 * material.wall(d).delta_C()), 1.0, 5e-3);
+  EXPECT_NEAR(asked_for(0.8, "other") / (1e-4 * material.wall(0.8).delta_C()), 1.0, 5e-3);
 }
 
 TEST(WallGrid, kinks_where_particles_touch_are_refused)
@@ -423,6 +517,63 @@ TEST(WallGrid, integrators_agree)
   for (int n : {1, 2}) {
     EXPECT_LT(difference(states[n].x, states[0].x), 1e-4) << n;
     EXPECT_LT(difference(states[n].v, states[0].v), 2e-2) << n;
+  }
+}
+
+// C17: along many cells of a gridded cylinder a sphere goes as along the cylinder itself
+TEST(WallGrid, slides_and_rolls_as_on_a_cylinder)
+{
+  struct Case {
+    const char *name;
+    int dims;
+    double spacing, side;
+    std::string law;
+    double vx, vz, gravity;
+    int steps;
+  };
+  const std::string slippery = " sliding 0.001 ";
+  const Case cases[] = {
+      {"slides around", 2, 0.1, 1.0, slippery, 5.0, 0.0, 0.0, 800},
+      {"rolls down", 2, 0.1, 1.0, " sliding 0.3 damping tsuji 0.1 ", 1.0, 0.0, 100.0, 1200},
+      {"slides inside", 2, 0.1, -1.0, slippery, 5.0, 0.0, 0.0, 800},
+      {"rolls through a pipe", 3, 0.2, -1.0, " sliding 0.3 twisting yes damping tsuji 0.1 ", 4.0,
+       3.0, 20.0, 1600},
+  };
+  for (const auto &c : cases) {
+    const double R = c.dims == 2 ? 2.0 : 3.5;
+    const auto shape = [&](const double *x) {
+      return c.side * (std::hypot(x[0] - 4.0, x[1] - 4.0) - R);
+    };
+    const double at_wall = R + c.side * (0.5 - material.wall().delta_eq());
+    std::vector<State> states;
+    double way = 0.0;
+    for (const bool gridded : {true, false}) {
+      GridScene scene(c.dims, c.spacing, {{"distance", shape}},
+                      {{4.0, 4.0 + c.side * at_wall, c.dims == 2 ? 0.0 : 2.0}}, jkr + c.law);
+      if (!gridded)
+        scene.sim.run("unfix wall\nfix wall all wall/levelset cylinder z 4 4 " + digits(R) +
+                      (c.side > 0.0 ? " outside" : " inside") + jkr + c.law);
+      scene.sim.run("fix g all gravity " + digits(c.gravity) + " vector 0 -1 0\n" + mts(8));
+      set_motion(scene.sim, 1, {c.vx, 0.0, c.vz}, {0.0, 0.0, 0.0});
+      scene.sim.run("run " + std::to_string(c.steps));
+      EXPECT_EQ(scene.sim.value("f_wall[8]"), 1.0) << c.name;
+      EXPECT_EQ(scene.sim.value("f_wall[9]"), 0.0) << c.name;
+      states.push_back(state_of(scene.sim));
+      const auto &x = states.back().x;
+      way = at_wall * std::acos(std::clamp(c.side * (x[1] - 4.0) / at_wall, -1.0, 1.0));
+    }
+    const auto &v = states[1].v, &spin = states[1].omega;
+    const auto &x = states[1].x;
+    const double lever = c.side * (std::hypot(x[0] - 4.0, x[1] - 4.0) - R);
+    const double slip = std::hypot(v[0], v[1]) - lever * std::fabs(spin[2]);
+    if (c.law == slippery)
+      EXPECT_GT(slip, 0.2) << c.name;
+    else
+      EXPECT_NEAR(slip, 0.0, 0.01) << c.name;
+    EXPECT_GT(way, 6.0 * c.spacing) << c.name;
+    EXPECT_LT(difference(states[0].x, states[1].x), 1e-4) << c.name;
+    EXPECT_LT(difference(states[0].v, states[1].v), 1e-3) << c.name;
+    EXPECT_LT(difference(states[0].omega, states[1].omega), 1e-3) << c.name;
   }
 }
 
