@@ -110,9 +110,9 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
       return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
     };
     // an edge's rim, seen from the distance of a radius, has a jump of curvature of 1/radius
-    const double of_edges = std::max(
-        error_allowed, 2.0 * apf::GridDistance::error_constant * spacing * spacing / smallest);
-    const bool kinked = survey.edge_error > of_edges;
+    const double of_edges = std::max(error_allowed / (survey.edge_spacing * survey.edge_spacing),
+                                     2.0 * apf::GridDistance::error_constant / smallest);
+    const bool kinked = survey.edge_bend > of_edges;
     if (survey.slope_error > crease || kinked)
       error->all(FLERR, Error::NOLASTLINE,
                  "{} is not a smooth distance at {}, where particles may touch: the size of its "
@@ -126,7 +126,8 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
                  "{} is known to {:.3g} only at {}, where particles may touch, and {:.3g} is asked "
                  "for: use a spacing of {:.3g} instead of {:.3g}, or keyword resolution",
                  where, survey.error, at(survey.error_at), error_allowed,
-                 0.95 * spacing * std::pow(error_allowed / survey.error, 0.25), spacing);
+                 0.95 * survey.error_spacing * std::pow(error_allowed / survey.error, 0.25),
+                 survey.error_spacing);
     auto &surface = all[n];
     surface.uniform = std::max(survey.spread[0], survey.spread[1]) * largest < uniform;
     for (int c = 0; c < 2; c++) {

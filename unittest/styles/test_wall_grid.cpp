@@ -469,6 +469,33 @@ TEST(WallGrid, kinks_where_particles_touch_are_refused)
   }
 }
 
+// Nodes may be far apart along an axis along which nothing changes. What a spacing is good for, and
+// the one that would do, are those of the other axes.
+TEST(WallGrid, spacings_may_differ)
+{
+  const auto error_of = [](double h, const Shape &shape, const std::string &law) {
+    TemporaryFile file("apf_wall_layers");
+    const int n = static_cast<int>(std::lround(8.0 / h)) + 1;
+    file.write({n, n, 3}, {0, 0, 0}, {h, h, 4.0}, [&](VtkhdfWriter &w) {
+      w.field("distance", 1, [&](const double *x, double, double *phi) {
+        *phi = shape(x);
+      });
+    });
+    Scene scene;
+    scene.boundary = "f f p";
+    scene.style = none + "fix wall all wall/levelset file " + file.path + law + "\n";
+    Simulation sim;
+    build(sim, {{6.6, 4.0, 4.0}}, scene);
+    return sim.error_of("run 0");
+  };
+  EXPECT_EQ(error_of(0.1, circle, jkr), "");
+  const std::string coarse = error_of(0.4, circle, jkr + "resolution 1e-4");
+  EXPECT_NE(coarse.find("instead of 0.4,"), std::string::npos) << coarse;
+  EXPECT_EQ(error_of(0.1, outside_quadrant, jkr), "");
+  const std::string edge = error_of(0.5, outside_quadrant, jkr);
+  EXPECT_NE(edge.find("edges a spacing below a third of a radius"), std::string::npos) << edge;
+}
+
 TEST(WallGrid, files_that_do_not_fit_are_refused)
 {
   const auto refused = [](const std::string &law, const std::string &array, const char *expected) {
