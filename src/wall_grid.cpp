@@ -91,13 +91,20 @@ std::vector<apf::Surface> WallGrid::surfaces() const
 void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double largest,
                      double error_allowed) const
 {
-  double spacing = 0.0;
-  for (int axis = 0; axis < lattice.dims; axis++)
-    spacing = std::max(spacing, lattice.spacing[axis]);
+  const auto [finest, widest] =
+      std::minmax_element(lattice.spacing, lattice.spacing + lattice.dims);
   for (size_t n = 0; n < pieces.size(); n++) {
     apf::GridSurvey survey;
+    const double nearest = 0.9 * smallest;
+    // a piece goes on behind others, where no particle comes
+    const auto reached = [&](const double *x) {
+      for (const auto &other : all)
+        if (&other != &all[n] && other.grid.distance(x) < nearest - *finest) return false;
+      return true;
+    };
     if (comm->me == 0)
-      survey = apf::GridSurvey::of(lattice, all[n].grid, 0.9 * smallest, 1.05 * largest + spacing);
+      survey =
+          apf::GridSurvey::of(lattice, all[n].grid, nearest, 1.05 * largest + *widest, reached);
     MPI_Bcast(&survey, sizeof(survey), MPI_BYTE, 0, world);
     const std::string where = fmt::format("{} file {}: array {}", command, path, pieces[n]);
     if (survey.nodes == 0) {

@@ -21,9 +21,11 @@ struct GridSurvey {
   double curvature[2] = {};    // mean of the wall's principal curvatures, the larger one first
   double spread[2] = {};       // their standard deviations                            [1/length]
 
-  // nodes whose distance lies between two values, `at_most` less than the band of the field
+  // nodes whose distance lies between two values, `at_most` less than the band of the field, and
+  // that reached(x) does not leave out
+  template <class Reached>
   static GridSurvey of(const Lattice &lattice, const GridDistance &grid, double at_least,
-                       double at_most)
+                       double at_most, const Reached &reached)
   {
     GridSurvey survey;
     double sum[2] = {}, squares[2] = {};
@@ -35,7 +37,7 @@ struct GridSurvey {
       if (grid.at_least(x) > at_most) return;
       double slope[3];
       const double phi = grid.distance(x, slope);
-      if (phi < at_least || phi > at_most) return;
+      if (phi < at_least || phi > at_most || !reached(x)) return;
       survey.nodes++;
       double h, of_twice;
       const double error = grid.error_at(i, j, k, 1, h);

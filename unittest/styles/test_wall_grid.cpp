@@ -469,6 +469,23 @@ TEST(WallGrid, kinks_where_particles_touch_are_refused)
   }
 }
 
+// Behind another side, where no particle comes, a side need not be a distance.
+TEST(WallGrid, what_lies_behind_other_sides_does_not_count)
+{
+  for (const double break_at : {0.9, 1.6}) {
+    const auto floor = [break_at](const double *x) {
+      return x[0] > break_at ? x[1] - 1.0 : 3.0 * (x[1] - 1.0);
+    };
+    GridScene scene(2, 0.1, {{"distance_floor", floor}, {"distance_side", plane(1, 0, 0, 1.0)}},
+                    {{3.0, 3.0, 0.0}}, jkr);
+    const std::string text = scene.sim.error_of("run 0");
+    if (break_at < 1.0)
+      EXPECT_EQ(text, "");
+    else
+      EXPECT_NE(text.find("array distance_floor is not a smooth distance"), std::string::npos);
+  }
+}
+
 // Nodes may be far apart along an axis along which nothing changes. What a spacing is good for, and
 // the one that would do, are those of the other axes.
 TEST(WallGrid, spacings_may_differ)
