@@ -1,4 +1,5 @@
-// Fix wall/levelset file: what a grid cannot hold is refused, with what would do; zones and pictures.
+// Fix wall/levelset file: what a grid cannot hold is refused, with what would do; zones and
+// pictures.
 
 #include "grid_scene.h"
 
@@ -172,7 +173,8 @@ TEST(WallGridFile, pieces_are_zones)
     EXPECT_NEAR(scene.sim.value("f_wall[" + std::to_string(row) + "][13]") / (2.0 * pi), 1.0, 1e-3);
 }
 
-// In pictures a sphere of twice the radius covers four times as many pixels, a circle twice as many.
+// In pictures a sphere of twice the radius covers four times as many pixels, a circle twice as
+// many.
 TEST(WallGridFile, is_drawn_in_pictures)
 {
   const std::string picture = scratch_file("picture.ppm");
