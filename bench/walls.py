@@ -27,17 +27,18 @@ WALLS = {
     "cylinder": "cylinder",
     "grid_plane": "file, a plane",
     "grid_cylinder": "file, the cylinder",
-    "grid_bent": "file, an ellipse: curvature by place",
+    "grid_bent": "file, the cylinder with waves",
 }
 
 
 def write_walls(folder):
-    """Distances on 161 x 161 x 31 nodes: to a plane, a cylinder, and an ellipse nearly round."""
+    """Distances on 161 x 161 x 31 nodes: to a plane, a cylinder, and one with flat waves."""
     across, along = np.linspace(-20, 20, 161), np.linspace(0, 120, 31)
     _, y, x = np.meshgrid(along, across, across, indexing="ij")
     rho, angle = np.hypot(x, y), np.arctan2(y, x)
-    # the ellipse's distance to first order in the difference of its axes, which is small
-    walls = {"plane": y + R, "cylinder": R - rho, "bent": R - rho + 0.003 * np.cos(6 * angle) * rho / R}
+    # waves whose curvature is not the same everywhere; to first order in their height
+    waves = 0.003 * np.cos(6 * angle) * rho / R
+    walls = {"plane": y + R, "cylinder": R - rho, "bent": R - rho + waves}
     for name, distance in walls.items():
         with h5py.File(folder / f"{name}.vtkhdf", "w") as file:
             grid = file.create_group("VTKHDF")
@@ -64,7 +65,7 @@ def write_spheres(folder):
 
 
 def measure(args, folder):
-    """Times per particle and step [ns] of each round, by (wall, state), less those without a wall."""
+    """Times per particle and step [ns] of each round by (wall, state), less those without."""
     write_walls(folder)
     write_spheres(folder)
     variables = {"rounds": args.rounds, "steps": args.steps, "law": LAW}
@@ -84,14 +85,14 @@ def table(times, args):
              f"median of {args.rounds} rounds of {args.steps} steps, smallest .. largest; time per "
              "particle and step in ns,",
              "of LAMMPS's breakdown (Modify) less that of the same round without a wall;",
-             "ratio: to the plane or cylinder in closed form, median of the rounds", "",
+             "ratio: of the medians, to the plane or cylinder in closed form", "",
              f"{'wall':40}" + "".join(f"{state:>32}" for state in STATES)]
     for wall, words in WALLS.items():
         beside = "plane" if "plane" in wall else "cylinder"
         cells = []
         for state in STATES:
             t = times[wall, state]
-            ratio = np.median(t / times[beside, state])
+            ratio = np.median(t) / np.median(times[beside, state])
             cells.append(f"{np.median(t):7.1f}  {t.min():6.1f} .. {t.max():6.1f} {ratio:6.2f}")
         lines.append(f"{words:40}" + "".join(f"{cell:>32}" for cell in cells))
     return lines
