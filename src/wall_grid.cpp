@@ -2,6 +2,7 @@
 
 #include "comm.h"
 #include "error.h"
+#include "math_extra.h"
 
 #include "wall/grid_survey.h"
 #include "wall/isosurface.h"
@@ -144,6 +145,17 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
   }
 }
 
+/* ---------------------------------------------------------------------- */
+
+static bool has_no_area(const std::array<double, 3> *corners, double least)
+{
+  double a[3], b[3], normal[3];
+  MathExtra::sub3(corners[1].data(), corners[0].data(), a);
+  MathExtra::sub3(corners[2].data(), corners[0].data(), b);
+  MathExtra::cross3(a, b, normal);
+  return 0.5 * MathExtra::len3(normal) <= least;
+}
+
 /* ----------------------------------------------------------------------
    A piece's field goes on beyond the rim of the piece, behind the other pieces: what is there is
    not part of the wall.
@@ -164,6 +176,8 @@ std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
     values[node] = field.grid.distance(x);
   });
   apf::Isosurface(lattice, values).for_each([&](const std::array<double, 3> *corners) {
+    // where the wall goes through nodes; such triangles would be drawn black
+    if (lattice.dims == 3 && has_no_area(corners, 1.0e-9 * spacing * spacing)) return;
     const auto &last = corners[lattice.dims - 1];
     double middle[3];
     for (int c = 0; c < 3; c++) middle[c] = (corners[0][c] + corners[1][c] + last[c]) / 3.0;

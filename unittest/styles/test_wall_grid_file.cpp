@@ -3,6 +3,8 @@
 
 #include "grid_scene.h"
 
+#include "fix.h"
+
 #include <fstream>
 
 TEST(WallGridFile, coarse_grids_are_refused_and_the_advice_holds)
@@ -204,4 +206,30 @@ TEST(WallGridFile, is_drawn_in_pictures)
     EXPECT_NEAR(large / small, dims == 3 ? 4.0 : 2.0, 0.15);
   }
   std::filesystem::remove(picture);
+}
+
+// A wall through nodes of the grid has no triangles without area, which LAMMPS would draw black.
+TEST(WallGridFile, walls_through_nodes_are_drawn_in_triangles_with_area)
+{
+  GridScene scene(3, 0.5, {{"distance", plane(0, 1, 0, 2.0)}}, {{4.0, 4.0, 4.0}}, jkr);
+  scene.sim.run("run 0");
+  int *objects;
+  double **values;
+  auto *wall = scene.sim.lammps()->modify->get_fix_by_id("wall");
+  const int n = wall->image(objects, values);
+  double area = 0.0;
+  for (int t = 0; t < n; t++) {    // type, three corners
+    const double *p = values[t] + 1;
+    double a[3], b[3];
+    for (int c = 0; c < 3; c++) {
+      a[c] = p[3 + c] - p[c];
+      b[c] = p[6 + c] - p[c];
+    }
+    const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2],
+                 z = a[0] * b[1] - a[1] * b[0];
+    const double part = 0.5 * std::sqrt(x * x + y * y + z * z);
+    EXPECT_GT(part, 1e-6);
+    area += part;
+  }
+  EXPECT_NEAR(area, 64.0, 1e-9);
 }
