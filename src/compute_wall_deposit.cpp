@@ -6,6 +6,7 @@
 #include "flow/particle_slab.h"
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "memory.h"
@@ -119,19 +120,36 @@ ComputeWallDeposit::Row ComputeWallDeposit::measure_row(int row,
     if (whole || touch.zone == row) surfaces[touch.i] |= Marks(1) << touch.surface;
   if (auto *aggregates = wall->all_aggregates()) aggregates->spread(surfaces);
 
-  double sums[2] = {}, highest = 0.0;    // particles, volume
+  double sums[2] = {};                   // particles, volume
+  double highest = 0.0, beyond = 0.0;    // beyond: of those farther than distances are known
   for (int i = 0; i < atom->nlocal; i++) {
     const bool counts = surfaces[i] && (atom->mask[i] & groupbit);
-    const double height = counts ? wall->distance(atom->x[i], surfaces[i]) + atom->radius[i] : 0.0;
+    const double reach = wall->reach(surfaces[i]);
+    const double distance = counts ? std::min(wall->distance(atom->x[i], surfaces[i]), reach) : 0.0;
+    const double height = counts ? distance + atom->radius[i] : 0.0;
     if (row == chosen) vector_atom[i] = height;
     if (!counts) continue;
+    constexpr double rounding = 1.0e-9;
+    if (distance >= (1.0 - rounding) * reach) beyond = std::max(beyond, height);
     highest = std::max(highest, height);
     sums[0] += 1.0;
     sums[1] += apf::particle_volume(atom->radius[i], domain->dimension == 2);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world);
-  MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_DOUBLE, MPI_MAX, world);
-  return {sums[0], highest, wall->zones().per_area(sums[1], row)};
+  double most[2] = {highest, beyond};
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  if (most[1] > 0.0) warn_beyond(most[1]);
+  return {sums[0], most[0], wall->zones().per_area(sums[1], row)};
+}
+
+void ComputeWallDeposit::warn_beyond(double height)
+{
+  if (!warned && comm->me == 0)
+    error->warning(FLERR,
+                   "{} {}: particles of the deposit are beyond the band of the wall's file, and "
+                   "count as if they were {} high; make the file with a wider band",
+                   command, id, height);
+  warned = true;
 }
 
 double ComputeWallDeposit::memory_usage()

@@ -35,9 +35,11 @@ class ComputeWallDeposit : public Compute {
   class FixWallLevelset *wall = nullptr;
   int chosen = 0;    // row of the vectors
   int nmax = 0;
+  bool warned = false;    // of heights beyond the band of a grid
 
   void find_wall(int iarg);
   void measure();
+  void warn_beyond(double height);
   Row measure_row(int row, const std::vector<struct WallTouch> &touches);
 };
 

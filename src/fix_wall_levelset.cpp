@@ -117,29 +117,22 @@ void FixWallLevelset::init()
 
   if (wet) bridges.init();
 
-  // the smallest and lightest particle decides about overlap and time step
-  double inverse[3] = {0.0, 0.0, 0.0}, smallest[3];
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) {
-      inverse[0] = MAX(inverse[0], 1.0 / atom->radius[i]);
-      inverse[1] = MAX(inverse[1], 1.0 / atom->rmass[i]);
-      inverse[2] = MAX(inverse[2], atom->radius[i]);
-    }
-  MPI_Allreduce(inverse, smallest, 3, MPI_DOUBLE, MPI_MAX, world);
-  if (smallest[0] == 0.0) return;
+  // the smallest and lightest particle, there or to come, decides about overlap and time step
+  const auto sizes = TypeSizes::find(lmp, command, igroup);
+  const double r = sizes.smallest_radius(), m = sizes.smallest_mass();
+  if (r == 0.0) return;
   for (const auto &surface : surfaces)
     if (surface.shape == apf::Surface::Shape::cylinder && surface.side < 0.0 &&
-        surface.radius <= 1.1 * smallest[2])
+        surface.radius <= 1.1 * sizes.largest_radius())
       error->all(FLERR, Error::NOLASTLINE,
                  "{} {}: the radius of a cylinder around the fluid must be > 1.1 times that of the "
                  "largest particle, {}, got {}",
-                 command, id, smallest[2], surface.radius);
-  const double r = 1.0 / smallest[0], m = 1.0 / smallest[1];
-  if (grid) check_grid(r, smallest[2]);
+                 command, id, sizes.largest_radius(), surface.radius);
+  if (grid) check_grid(r, sizes.largest_radius());
   for (const auto &surface : surfaces) {
     const double R = surface.contact_radius(r);
     check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, R, r);
-    if (step_is_given()) {
+    if (step_is_given() && m > 0.0) {    // LAMMPS's own inserters do not tell the mass
       auto bodies = apf::ContactBodies::wall(r, m, 0.4 * m * r * r);
       bodies.R = R;
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
@@ -152,14 +145,6 @@ void FixWallLevelset::init()
 void FixWallLevelset::check_grid(double smallest, double largest)
 {
   grid->check_box(Error::NOLASTLINE);
-  if (igroup == 0) {
-    const auto sizes = TypeSizes::find(lmp, command);
-    for (int type = 1; type <= atom->ntypes; type++) {
-      if (sizes.radius_max[type] == 0.0) continue;
-      smallest = MIN(smallest, sizes.radius_min[type]);
-      largest = MAX(largest, sizes.radius_max[type]);
-    }
-  }
   const auto normal = coefficient.model.normal(smallest);
   constexpr double without_adhesion = 1.0e-3;    // what delta_C of micron-sized dust is to R
   const double allowed = resolution *
@@ -687,6 +672,14 @@ double FixWallLevelset::distance(const double *x, Marks of_surfaces) const
   for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
     if (of_surfaces >> s & 1) nearest = std::min(nearest, foot_of(s, x).distance);
   return nearest;
+}
+
+double FixWallLevelset::reach(Marks of_surfaces) const
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
+    if (of_surfaces >> s & 1) least = std::min(least, surfaces[s].reach);
+  return least;
 }
 
 /* ----------------------------------------------------------------------

@@ -52,6 +52,7 @@ class FixWallLevelset : public FixContacts {
   WallLedger &zones() { return ledger; }
   std::vector<WallTouch> touches();
   double distance(const double *x, Marks of_surfaces) const;    // of the nearest of these
+  double reach(Marks of_surfaces) const;                        // up to which it is known
   // of all particles; nullptr if the pair style keeps no contacts
   class ComputeAggregateContact *all_aggregates() { return aggregates.get(); }
 

@@ -3,9 +3,11 @@
 #include "atom.h"
 #include "error.h"
 #include "fix.h"
+#include "group.h"
 #include "modify.h"
 
 #include <algorithm>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 
@@ -14,22 +16,42 @@ double TypeSizes::largest_radius() const
   return *std::max_element(radius_max.begin(), radius_max.end());
 }
 
-// what fix inlet/flow says of particles to come; LAMMPS's own fixes tell the largest radius only
-static void include_smallest(LAMMPS *lmp, int type, const char *name, double &smallest)
+// 0 stands for unknown
+static double smaller(double a, double b)
 {
-  for (const auto &fix : lmp->modify->get_fix_list()) {
-    int of_type = type;
-    const auto *inserted = static_cast<double *>(fix->extract(name, of_type));
-    if (inserted) smallest = smallest > 0.0 ? std::min(smallest, *inserted) : *inserted;
-  }
+  return a > 0.0 && b > 0.0 ? std::min(a, b) : std::max(a, b);
 }
 
-TypeSizes TypeSizes::find(LAMMPS *lmp, const char *who)
+static double smallest(const std::vector<double> &of_types)
+{
+  return std::accumulate(of_types.begin(), of_types.end(), 0.0, smaller);
+}
+
+double TypeSizes::smallest_radius() const
+{
+  return smallest(radius_min);
+}
+
+double TypeSizes::smallest_mass() const
+{
+  return smallest(mass_min);
+}
+
+// what a fix says of particles of a type that it inserts into the group; 0 if nothing
+static double told(Fix *fix, int igroup, const char *name, int type)
+{
+  if (igroup != 0 && fix->igroup != igroup) return 0.0;
+  const auto *value = static_cast<double *>(fix->extract(name, type));
+  return value ? *value : 0.0;
+}
+
+TypeSizes TypeSizes::find(LAMMPS *lmp, const char *who, int igroup)
 {
   const Atom *atom = lmp->atom;
   const int n = atom->ntypes + 1;
   std::vector<double> mine(3 * n, 0.0), all(3 * n, 0.0);    // radius, 1 / radius, 1 / mass
   for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & lmp->group->bitmask[igroup])) continue;
     const double r = atom->radius[i];
     if (r <= 0.0)
       lmp->error->one(FLERR, Error::NOLASTLINE, "{} needs radii > 0, atom {} has {}", who,
@@ -48,12 +70,11 @@ TypeSizes TypeSizes::find(LAMMPS *lmp, const char *who)
     sizes.radius_min[t] = largest[1] > 0.0 ? 1.0 / largest[1] : 0.0;
     sizes.mass_min[t] = largest[2] > 0.0 ? 1.0 / largest[2] : 0.0;
     for (const auto &fix : lmp->modify->get_fix_list()) {
-      int type = t;
-      const auto *inserted = static_cast<double *>(fix->extract("radius", type));
-      if (inserted) sizes.radius_max[t] = std::max(sizes.radius_max[t], *inserted);
+      // LAMMPS's own fixes tell the largest radius only
+      sizes.radius_max[t] = std::max(sizes.radius_max[t], told(fix, igroup, "radius", t));
+      sizes.radius_min[t] = smaller(sizes.radius_min[t], told(fix, igroup, "smallest_radius", t));
+      sizes.mass_min[t] = smaller(sizes.mass_min[t], told(fix, igroup, "smallest_mass", t));
     }
-    include_smallest(lmp, t, "smallest_radius", sizes.radius_min[t]);
-    include_smallest(lmp, t, "smallest_mass", sizes.mass_min[t]);
     if (sizes.radius_min[t] == 0.0) sizes.radius_min[t] = sizes.radius_max[t];
   }
   return sizes;

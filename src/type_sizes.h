@@ -13,10 +13,14 @@ struct TypeSizes {                               // [1..ntypes]; 0 for a type wi
   std::vector<double> radius_min, radius_max;    // those that fixes are about to insert included
   std::vector<double> mass_min;
 
-  double largest_radius() const;    // of any type
+  // of any type; 0 if there are no particles, or nothing is known of their masses
+  double largest_radius() const;
+  double smallest_radius() const;
+  double smallest_mass() const;
 
-  // Collective. An error where a radius is not > 0; who begins its text.
-  static TypeSizes find(LAMMPS *lmp, const char *who);
+  // Of the particles of a group and those that fixes insert into it; 0: all. Collective. An error
+  // where a radius is not > 0; who begins its text.
+  static TypeSizes find(LAMMPS *lmp, const char *who, int igroup = 0);
 };
 
 }    // namespace LAMMPS_NS

@@ -2,12 +2,14 @@
 
 #include "comm.h"
 #include "error.h"
+#include "math_extra.h"
 
 #include "wall/grid_survey.h"
 #include "wall/isosurface.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -27,11 +29,14 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
   choose(arrays, largest_pieces);
   size = apf::GridDistance::size(lattice);
   allocate(size * pieces.size());
+  reaches.assign(pieces.size(), -std::numeric_limits<double>::infinity());
   for (size_t n = 0; n < pieces.size(); n++)
     attempt([&] {
       const auto nodes = nodes_of(file->read(pieces[n], 1, 0, layers()), 1);
       apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
+      reaches[n] = *std::max_element(nodes.begin(), nodes.end());
     });
+  MPI_Allreduce(MPI_IN_PLACE, reaches.data(), reaches.size(), MPI_DOUBLE, MPI_MAX, world);
   file.reset();
   position = Error::NOLASTLINE;
 }
@@ -75,7 +80,8 @@ std::vector<apf::Surface> WallGrid::surfaces() const
 {
   std::vector<apf::Surface> all;
   for (size_t n = 0; n < pieces.size(); n++)
-    all.push_back(apf::Surface::gridded(apf::GridDistance(lattice, numbers.data() + n * size)));
+    all.push_back(
+        apf::Surface::gridded(apf::GridDistance(lattice, numbers.data() + n * size), reaches[n]));
   return all;
 }
 
@@ -86,13 +92,20 @@ std::vector<apf::Surface> WallGrid::surfaces() const
 void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double largest,
                      double error_allowed) const
 {
-  double spacing = 0.0;
-  for (int axis = 0; axis < lattice.dims; axis++)
-    spacing = std::max(spacing, lattice.spacing[axis]);
+  const auto [finest, widest] =
+      std::minmax_element(lattice.spacing, lattice.spacing + lattice.dims);
   for (size_t n = 0; n < pieces.size(); n++) {
     apf::GridSurvey survey;
+    const double nearest = 0.9 * smallest;
+    // a piece goes on behind others, where no particle comes
+    const auto reached = [&](const double *x) {
+      for (const auto &other : all)
+        if (&other != &all[n] && other.grid.distance(x) < nearest - *finest) return false;
+      return true;
+    };
     if (comm->me == 0)
-      survey = apf::GridSurvey::of(lattice, all[n].grid, 0.9 * smallest, 1.05 * largest + spacing);
+      survey =
+          apf::GridSurvey::of(lattice, all[n].grid, nearest, 1.05 * largest + *widest, reached);
     MPI_Bcast(&survey, sizeof(survey), MPI_BYTE, 0, world);
     const std::string where = fmt::format("{} file {}: array {}", command, path, pieces[n]);
     if (survey.nodes == 0) {
@@ -105,9 +118,9 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
       return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
     };
     // an edge's rim, seen from the distance of a radius, has a jump of curvature of 1/radius
-    const double of_edges = std::max(
-        error_allowed, 2.0 * apf::GridDistance::error_constant * spacing * spacing / smallest);
-    const bool kinked = survey.edge_error > of_edges;
+    const double of_edges = std::max(error_allowed / (survey.edge_spacing * survey.edge_spacing),
+                                     2.0 * apf::GridDistance::error_constant / smallest);
+    const bool kinked = survey.edge_bend > of_edges;
     if (survey.slope_error > crease || kinked)
       error->all(FLERR, Error::NOLASTLINE,
                  "{} is not a smooth distance at {}, where particles may touch: the size of its "
@@ -121,7 +134,8 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
                  "{} is known to {:.3g} only at {}, where particles may touch, and {:.3g} is asked "
                  "for: use a spacing of {:.3g} instead of {:.3g}, or keyword resolution",
                  where, survey.error, at(survey.error_at), error_allowed,
-                 0.95 * spacing * std::pow(error_allowed / survey.error, 0.25), spacing);
+                 0.95 * survey.error_spacing * std::pow(error_allowed / survey.error, 0.25),
+                 survey.error_spacing);
     auto &surface = all[n];
     surface.uniform = std::max(survey.spread[0], survey.spread[1]) * largest < uniform;
     for (int c = 0; c < 2; c++) {
@@ -129,6 +143,17 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
       surface.curvature[c] = surface.uniform && bends ? survey.curvature[c] : 0.0;
     }
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+static bool has_no_area(const std::array<double, 3> *corners, double least)
+{
+  double a[3], b[3], normal[3];
+  MathExtra::sub3(corners[1].data(), corners[0].data(), a);
+  MathExtra::sub3(corners[2].data(), corners[0].data(), b);
+  MathExtra::cross3(a, b, normal);
+  return 0.5 * MathExtra::len3(normal) <= least;
 }
 
 /* ----------------------------------------------------------------------
@@ -151,6 +176,8 @@ std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
     values[node] = field.grid.distance(x);
   });
   apf::Isosurface(lattice, values).for_each([&](const std::array<double, 3> *corners) {
+    // where the wall goes through nodes; such triangles would be drawn black
+    if (lattice.dims == 3 && has_no_area(corners, 1.0e-9 * spacing * spacing)) return;
     const auto &last = corners[lattice.dims - 1];
     double middle[3];
     for (int c = 0; c < 3; c++) middle[c] = (corners[0][c] + corners[1][c] + last[c]) / 3.0;

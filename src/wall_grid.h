@@ -34,7 +34,8 @@ class WallGrid : public GridFile {
 
  private:
   std::vector<std::string> pieces;
-  std::size_t size = 0;    // numbers of a piece
+  std::size_t size = 0;           // numbers of a piece
+  std::vector<double> reaches;    // largest number of each
 
   void choose(const std::vector<std::string> &wanted, int most);
 };

@@ -168,18 +168,24 @@ class GridDistance {
   // What the nodes around a node say about the error of the distance there, if they stood `apart`
   // spacings: error_constant times the fourth differences along the axes, which are of fourth order
   // in the spacing where the field is smooth, and of second order where curvature jumps, as at the
-  // rim of an edge. Borders that are not periodic are left out.                          [length]
-  double error_at(int i, int j, int k, int apart) const
+  // rim of an edge. Borders that are not periodic are left out. spacing: of the axis that has the
+  // largest part in it.                                                                  [length]
+  double error_at(int i, int j, int k, int apart, double &spacing) const
   {
     const int at[3] = {i, j, k};
     const double *p = c;
     for (int axis = 0; axis < dims; axis++) p += (at[axis] + margin) * stride[axis];
-    double sum = 0.0;
+    double sum = 0.0, most = 0.0;
+    spacing = widest;
     for (int axis = 0; axis < dims; axis++) {
       const std::ptrdiff_t s = apart * stride[axis];
       const int beyond = 2 * apart - margin;
       if (at[axis] < beyond || at[axis] > cells[axis] - beyond) continue;
-      sum += std::fabs(p[-2 * s] + p[2 * s] - 4.0 * (p[-s] + p[s]) + 6.0 * p[0]);
+      const double part = std::fabs(p[-2 * s] + p[2 * s] - 4.0 * (p[-s] + p[s]) + 6.0 * p[0]);
+      sum += part;
+      if (part <= most) continue;
+      most = part;
+      spacing = 1.0 / per_length[axis];
     }
     return error_constant * sum;
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace apf {
 
@@ -30,6 +31,8 @@ struct Surface {
   // surface bends away from the fluid                                                  [1/length]
   double curvature[2] = {0.0, 0.0};
   bool uniform = true;    // whether they are the same
+  // distances of a grid are known up to this, its largest number                        [length]
+  double reach = std::numeric_limits<double>::infinity();
 
   static Surface plane(int dim, double coordinate, double side)
   {
@@ -39,9 +42,9 @@ struct Surface {
   {
     return {Shape::cylinder, dim, side, {c1, c2}, radius, {}, {side / radius, 0.0}};
   }
-  static Surface gridded(const GridDistance &grid)
+  static Surface gridded(const GridDistance &grid, double reach)
   {
-    return {Shape::grid, 0, 1.0, {0.0, 0.0}, 0.0, grid, {0.0, 0.0}, false};
+    return {Shape::grid, 0, 1.0, {0.0, 0.0}, 0.0, grid, {0.0, 0.0}, false, reach};
   }
 
   // signed distance of x, > 0 in the fluid [length]

@@ -49,3 +49,8 @@ TEST(Examples, radiator)
 {
   EXPECT_EQ(verdict("radiator", "radiator", {"-var", "t", "1"}), "pass");
 }
+
+TEST(Examples, duct)
+{
+  EXPECT_EQ(verdict("duct", "duct", {}), "pass");
+}

@@ -1,6 +1,9 @@
 // Compute wall/deposit: heights, dendrites and thickness in scenes built by hand.
 
 #include "scenes.h"
+#include "temporary_file.h"
+
+#include "error.h"
 
 namespace {
 
@@ -131,6 +134,40 @@ TEST(RanksDeposit, is_measured_again_as_particles_come_and_go)
   sim.run("group tip id 4\nfix mv tip move linear 64 0 0 units box\nrun 32");
   expect_near({row(sim, 1)[0]}, {4.0});
   expect_near({gather(sim, "c_dep", 1)[3]}, {0.0});
+}
+
+// A tower on a gridded floor whose band ends at 2: above it heights are not known, and a warning
+// says so.
+TEST(RanksDeposit, heights_beyond_the_band_of_a_grid)
+{
+  for (const double band : {2.0, 8.0}) {
+    TemporaryFile file("apf_wall_deposit");
+    file.write({21, 21, 21}, {0, 0, 0}, {0.4, 0.4, 0.4}, [band](VtkhdfWriter &w) {
+      w.field("distance", 1, [band](const double *x, double, double *phi) {
+        *phi = std::min(x[2], band);
+      });
+    });
+    Scene scene;
+    scene.boundary = "f f f";
+    scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr +
+        "\nfix wall all wall/levelset file " + file.path + jkr +
+        "\ncompute dep all wall/deposit wall\n";
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 0.49}, {4.0, 4.0, 1.45}, {4.0, 4.0, 2.41}, {4.0, 4.0, 3.37}}, scene);
+    sim.run("run 0");
+    const int before = sim.lammps()->error->get_numwarn();
+    const double most = vector_of(sim)[1];
+    const int warnings = sim.lammps()->error->get_numwarn() - before;
+    if (band < 4.0) {
+      EXPECT_NEAR(most, band + 0.5, 1e-9);
+      EXPECT_EQ(warnings, TemporaryFile::rank() == 0 ? 1 : 0);
+      EXPECT_NEAR(vector_of(sim)[1], band + 0.5, 1e-9);
+      EXPECT_LE(sim.lammps()->error->get_numwarn() - before, 1);    // once
+    } else {
+      EXPECT_NEAR(most, 3.87, 1e-9);
+      EXPECT_EQ(warnings, 0);
+    }
+  }
 }
 
 }    // namespace

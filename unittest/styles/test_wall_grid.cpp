@@ -1,79 +1,9 @@
 // Fix wall/levelset file: the wall from distances at the nodes of a grid against planes, circles
 // and edges in closed form.
 
-#include "scenes.h"
-#include "temporary_file.h"
+#include "grid_scene.h"
 
 #include <algorithm>
-#include <functional>
-#include <map>
-
-namespace {
-
-const Material material;
-const double mass = pi / 6.0;    // of a sphere of diameter and density 1
-const std::string none = "pair_style granular/adhesive\npair_coeff * *" + jkr + "\n";
-using Shape = std::function<double(const double *)>;
-
-// Scenes in the plane (box 8 x 8) or in space (8 x 8 x 8), the grid covering the box.
-struct GridScene {
-  TemporaryFile file{"apf_wall"};
-  Simulation sim;
-
-  GridScene(int dims, double spacing, const std::map<std::string, Shape> &arrays,
-            const std::vector<Sphere> &spheres, const std::string &law,
-            const std::string &boundary = "f f f")
-  {
-    const int n = static_cast<int>(std::lround(8.0 / spacing)) + 1;
-    const double z = dims == 2 ? -spacing / 2 : 0.0;
-    file.write({n, n, dims == 2 ? 2 : n}, {0, 0, z}, {spacing, spacing, spacing},
-               [&](VtkhdfWriter &w) {
-                 for (const auto &[name, shape] : arrays) {
-                   const auto &f = shape;
-                   w.field(name, 1, [&f](const double *x, double, double *phi) {
-                     *phi = f(x);
-                   });
-                 }
-               });
-    Scene scene;
-    scene.boundary = dims == 2 ? boundary.substr(0, 3) + " p" : boundary;
-    if (dims == 2) {
-      scene.before = "dimension 2";
-      scene.box = "0 8 0 8 -0.5 0.5";
-    }
-    scene.style = none + "fix wall all wall/levelset file " + file.path + law + "\n";
-    build(sim, spheres, scene);
-    if (dims == 2) sim.run("fix flat all enforce2d");
-  }
-};
-
-Shape plane(double nx, double ny, double nz, double offset)
-{
-  const double size = std::sqrt(nx * nx + ny * ny + nz * nz);
-  return [=](const double *x) {
-    return (nx * x[0] + ny * x[1] + nz * x[2]) / size - offset;
-  };
-}
-
-double circle(const double *x)    // fluid outside a cylinder of radius 2 in the middle
-{
-  return std::hypot(x[0] - 4.0, x[1] - 4.0) - 2.0;
-}
-
-// fluid outside of the quadrant x < 4, y < 4: a convex edge
-double outside_quadrant(const double *x)
-{
-  const double dx = x[0] - 4.0, dy = x[1] - 4.0;
-  if (dx > 0.0 && dy > 0.0) return std::hypot(dx, dy);
-  return std::max(dx, dy);
-}
-
-std::string at(double x, double y)
-{
-  return "set atom 1 x " + digits(x) + " y " + digits(y) + "\n";
-}
-
-}    // namespace
 
 // C16: planes at any angle to the grid
 TEST(WallGrid, oblique_plane_is_exact)
@@ -272,6 +202,48 @@ TEST(WallGrid, edge_is_rolled_over_without_loss)
   }
 }
 
+// ... in space over an edge askew, and over the corner of a box where three edges meet; sliding
+// without friction, and rolling without slip
+TEST(WallGrid, edges_and_corner_of_a_box_are_rolled_over_without_loss)
+{
+  const auto box = [](const double *x) {    // fluid outside of x, y, z < 4
+    const double d[3] = {x[0] - 4.0, x[1] - 4.0, x[2] - 4.0};
+    const double inside = std::min(std::max({d[0], d[1], d[2]}), 0.0);
+    return inside + std::hypot(std::max(d[0], 0.0), std::max(d[1], 0.0), std::max(d[2], 0.0));
+  };
+  const double h = 4.5 - material.wall().delta_eq();
+  const std::array<double, 2> ways[] = {{0.96, 0.28}, {0.8, 0.6}, {0.7071, 0.7071}};
+  for (const std::string &law : {jkr, jkr + " sliding 1.0 "}) {
+    GridScene scene(3, 0.08, {{"distance", box}}, {{3.5, 3.5, h}}, law);
+    scene.sim.run("fix_modify wall energy yes\nthermo_modify norm no\ncompute k all ke\n"
+                  "compute w all erotate/sphere\n" +
+                  mts(20, dt / 8));
+    for (const auto &way : ways) {
+      // the last one meets the corner, the others an edge beside it
+      const double v = 2.0;
+      scene.sim.run("set atom 1 x " + digits(4.0 - 0.5 * way[0]) + " y " +
+                    digits(way[0] > 0.71 ? 3.5 : 4.0 - 0.5 * way[1]) + " z " + digits(h));
+      const bool rolls = law != jkr;
+      set_motion(scene.sim, 1, {v * way[0], v * way[1], 0.0},
+                 rolls ? std::vector<double>{-2.0 * v * way[1], 2.0 * v * way[0], 0.0}
+                       : std::vector<double>{0.0, 0.0, 0.0});
+      scene.sim.run("run 0");
+      const auto energy = [&] {
+        return scene.sim.value("c_k") + scene.sim.value("c_w");
+      };
+      const double kinetic = energy(), bound = scene.sim.value("pe");
+      const double begun = scene.sim.value("f_wall[8]");
+      scene.sim.run("run " +
+                    std::to_string(static_cast<int>(0.7 / scene.sim.lammps()->update->dt)));
+      const auto x = gather(scene.sim, "x");
+      EXPECT_LT(x[2], 4.2) << way[0];    // beside the box
+      EXPECT_EQ(scene.sim.value("f_wall[7]"), 1.0);
+      EXPECT_EQ(scene.sim.value("f_wall[8]"), begun);
+      EXPECT_NEAR((energy() + scene.sim.value("pe") - bound) / kinetic, 1.0, 1e-5) << way[0];
+    }
+  }
+}
+
 // A concave corner, one array for each side: two contacts, at rest where two planes hold it
 TEST(WallGrid, corner_holds_two_contacts)
 {
@@ -287,6 +259,38 @@ TEST(WallGrid, corner_holds_two_contacts)
     const auto x = gather(scene.sim, "x");
     EXPECT_NEAR(material.wall().force(1.5 - x[0]), 300.0 * mass, 1e-6 * 300.0 * mass);
     EXPECT_NEAR(material.wall().force(1.5 - x[1]), 400.0 * mass, 1e-6 * 400.0 * mass);
+  }
+}
+
+// ... and in space a corner of three sides, which the grid sees at an angle
+TEST(WallGrid, corner_of_three_sides_holds_three_contacts)
+{
+  // an orthonormal frame, and the weight in it
+  const double e[3][3] = {
+      {2 / 3., 2 / 3., 1 / 3.}, {-2 / 3., 1 / 3., 2 / 3.}, {1 / 3., -2 / 3., 2 / 3.}};
+  const double weight[3] = {300.0, 400.0, 500.0};
+  const double corner[3] = {3.0, 3.0, 3.0};
+  std::map<std::string, Shape> sides;
+  double x[3], g[3];
+  for (int c = 0; c < 3; c++) {
+    x[c] = corner[c] + 0.49 * (e[0][c] + e[1][c] + e[2][c]);
+    g[c] = -(weight[0] * e[0][c] + weight[1] * e[1][c] + weight[2] * e[2][c]);
+  }
+  const auto offset = [&](int n) {
+    return e[n][0] * corner[0] + e[n][1] * corner[1] + e[n][2] * corner[2];
+  };
+  for (int n = 0; n < 3; n++)
+    sides["distance_" + std::to_string(n)] = plane(e[n][0], e[n][1], e[n][2], offset(n));
+  GridScene scene(3, 0.25, sides, {{x[0], x[1], x[2]}}, jkr + "damping tsuji 0.1");
+  const double size = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  scene.sim.run("fix nve all nve/sphere\nfix g all gravity " + digits(size) + " vector " +
+                digits(g[0]) + " " + digits(g[1]) + " " + digits(g[2]) + "\nrun 5000");
+  EXPECT_EQ(scene.sim.value("f_wall[7]"), 3.0);
+  const auto at_rest = gather(scene.sim, "x");
+  for (int n = 0; n < 3; n++) {
+    const double distance =
+        e[n][0] * at_rest[0] + e[n][1] * at_rest[1] + e[n][2] * at_rest[2] - offset(n);
+    EXPECT_NEAR(material.wall().force(0.5 - distance) / (weight[n] * mass), 1.0, 1e-6) << n;
   }
 }
 
@@ -314,94 +318,6 @@ TEST(WallGrid, wedge_rests_where_its_faces_carry_the_weight)
 }
 
 // ---------------------------------------------------------------------------------------------
-// what a grid cannot hold is refused, with what would do
-
-TEST(WallGrid, coarse_grids_are_refused_and_the_advice_holds)
-{
-  std::string text;
-  {
-    GridScene scene(2, 0.4, {{"distance", circle}}, {{6.6, 4.0, 0.0}}, jkr + "resolution 1e-4");
-    text = scene.sim.error_of("run 0");
-  }
-  const auto found = text.find("use a spacing of ");
-  ASSERT_NE(found, std::string::npos) << text;
-  const double advice = std::stod(text.substr(found + 17));
-  EXPECT_LT(advice, 0.4);
-  EXPECT_GT(advice, 0.02);
-  // the next spacing that divides the box
-  const double spacing = 8.0 / std::ceil(8.0 / advice);
-  GridScene scene(2, spacing, {{"distance", circle}}, {{6.6, 4.0, 0.0}}, jkr + "resolution 1e-4");
-  EXPECT_EQ(scene.sim.error_of("run 0"), "");
-  // and what is accepted is as exact as it says
-  const double delta_C = material.wall().delta_C();
-  double worst = 0.0;
-  for (int n = 0; n < 40; n++) {
-    const double angle = 0.1 * n, r = 2.49;
-    scene.sim.run(at(4.0 + r * std::cos(angle), 4.0 + r * std::sin(angle)) + "run 0 post no");
-    const auto f = gather(scene.sim, "f");
-    const auto curve = material.curve(0.5 / std::sqrt(1.25));
-    const double slope = (curve.force(0.01 + 1e-6) - curve.force(0.01 - 1e-6)) / 2e-6;
-    const double size = f[0] * std::cos(angle) + f[1] * std::sin(angle);
-    worst = std::max(worst, std::fabs((size - curve.force(0.01)) / slope));
-  }
-  // R is a mean over the wall, known less exactly than the distance
-  EXPECT_LT(worst, 3e-3 * delta_C);
-}
-
-TEST(WallGrid, kinks_where_particles_touch_are_refused)
-{
-  const auto corner = [](const double *x) {
-    return std::min(x[0] - 1.0, x[1] - 1.0);
-  };
-  {
-    GridScene scene(2, 0.1, {{"distance", corner}}, {{3.0, 3.0, 0.0}}, jkr);
-    const std::string text = scene.sim.error_of("run 0");
-    EXPECT_NE(text.find("is not a smooth distance at"), std::string::npos) << text;
-    EXPECT_NE(text.find("an array for each side"), std::string::npos) << text;
-  }
-  {    // a gap narrower than the particle
-    const auto slit = [](const double *x) {
-      return 0.45 - std::fabs(x[0] - 4.0);
-    };
-    GridScene scene(2, 0.1, {{"distance", slit}}, {{4.0, 3.0, 0.0}}, jkr);
-    EXPECT_NE(scene.sim.error_of("run 0").find("wall"), std::string::npos);
-  }
-  {    // not a distance at all
-    const auto twice = [](const double *x) {
-      return 2.0 * x[1];
-    };
-    GridScene scene(2, 0.1, {{"distance", twice}}, {{4.0, 3.0, 0.0}}, jkr);
-    EXPECT_NE(scene.sim.error_of("run 0").find("is not a smooth distance"), std::string::npos);
-  }
-}
-
-TEST(WallGrid, files_that_do_not_fit_are_refused)
-{
-  const auto refused = [](const std::string &law, const std::string &array, const char *expected) {
-    try {
-      GridScene scene(2, 0.4, {{array, plane(0, 1, 0, 1.0)}}, {{3.0, 3.0, 0.0}}, law);
-      ADD_FAILURE() << "accepted: " << law;
-    } catch (const std::runtime_error &error) {
-      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
-    }
-  };
-  refused(jkr, "depth", "distance");
-  refused(" array floor" + jkr, "distance", "floor");
-  refused(jkr + "resolution 0", "distance", "resolution must be > 0, got 0");
-  Simulation sim;
-  Scene scene;
-  scene.boundary = "f f f";
-  scene.style = none;
-  build(sim, {{3.0, 3.0, 3.0}}, scene);
-  EXPECT_NE(
-      sim.error_of("fix wall all wall/levelset file missing.vtkhdf" + jkr).find("missing.vtkhdf"),
-      std::string::npos);
-  EXPECT_NE(sim.error_of("fix wall all wall/levelset plane z 0 NULL" + jkr + "resolution 0.1")
-                .find("for walls from a file"),
-            std::string::npos);
-}
-
-// ---------------------------------------------------------------------------------------------
 // integrators and ranks
 
 // a particle that rolls down a circle under gravity, with all friction
@@ -423,6 +339,63 @@ TEST(WallGrid, integrators_agree)
   for (int n : {1, 2}) {
     EXPECT_LT(difference(states[n].x, states[0].x), 1e-4) << n;
     EXPECT_LT(difference(states[n].v, states[0].v), 2e-2) << n;
+  }
+}
+
+// C17: along many cells of a gridded cylinder a sphere goes as along the cylinder itself
+TEST(WallGrid, slides_and_rolls_as_on_a_cylinder)
+{
+  struct Case {
+    const char *name;
+    int dims;
+    double spacing, side;
+    std::string law;
+    double vx, vz, gravity;
+    int steps;
+  };
+  const std::string slippery = " sliding 0.001 ";
+  const Case cases[] = {
+      {"slides around", 2, 0.1, 1.0, slippery, 5.0, 0.0, 0.0, 800},
+      {"rolls down", 2, 0.1, 1.0, " sliding 0.3 damping tsuji 0.1 ", 1.0, 0.0, 100.0, 1200},
+      {"slides inside", 2, 0.1, -1.0, slippery, 5.0, 0.0, 0.0, 800},
+      {"rolls through a pipe", 3, 0.2, -1.0, " sliding 0.3 twisting yes damping tsuji 0.1 ", 4.0,
+       3.0, 20.0, 1600},
+  };
+  for (const auto &c : cases) {
+    const double R = c.dims == 2 ? 2.0 : 3.5;
+    const auto shape = [&](const double *x) {
+      return c.side * (std::hypot(x[0] - 4.0, x[1] - 4.0) - R);
+    };
+    const double at_wall = R + c.side * (0.5 - material.wall().delta_eq());
+    std::vector<State> states;
+    double way = 0.0;
+    for (const bool gridded : {true, false}) {
+      GridScene scene(c.dims, c.spacing, {{"distance", shape}},
+                      {{4.0, 4.0 + c.side * at_wall, c.dims == 2 ? 0.0 : 2.0}}, jkr + c.law);
+      if (!gridded)
+        scene.sim.run("unfix wall\nfix wall all wall/levelset cylinder z 4 4 " + digits(R) +
+                      (c.side > 0.0 ? " outside" : " inside") + jkr + c.law);
+      scene.sim.run("fix g all gravity " + digits(c.gravity) + " vector 0 -1 0\n" + mts(8));
+      set_motion(scene.sim, 1, {c.vx, 0.0, c.vz}, {0.0, 0.0, 0.0});
+      scene.sim.run("run " + std::to_string(c.steps));
+      EXPECT_EQ(scene.sim.value("f_wall[8]"), 1.0) << c.name;
+      EXPECT_EQ(scene.sim.value("f_wall[9]"), 0.0) << c.name;
+      states.push_back(state_of(scene.sim));
+      const auto &x = states.back().x;
+      way = at_wall * std::acos(std::clamp(c.side * (x[1] - 4.0) / at_wall, -1.0, 1.0));
+    }
+    const auto &v = states[1].v, &spin = states[1].omega;
+    const auto &x = states[1].x;
+    const double lever = c.side * (std::hypot(x[0] - 4.0, x[1] - 4.0) - R);
+    const double slip = std::hypot(v[0], v[1]) - lever * std::fabs(spin[2]);
+    if (c.law == slippery)
+      EXPECT_GT(slip, 0.2) << c.name;
+    else
+      EXPECT_NEAR(slip, 0.0, 0.01) << c.name;
+    EXPECT_GT(way, 6.0 * c.spacing) << c.name;
+    EXPECT_LT(difference(states[0].x, states[1].x), 1e-4) << c.name;
+    EXPECT_LT(difference(states[0].v, states[1].v), 1e-3) << c.name;
+    EXPECT_LT(difference(states[0].omega, states[1].omega), 1e-3) << c.name;
   }
 }
 
@@ -449,23 +422,4 @@ TEST(RanksWallGrid, sphere_in_a_sphere_with_restart)
   }
   EXPECT_GT(largest(whole.v), 0.1);
   expect_same(parts, whole, 1e-12);
-}
-
-// Each array is a zone, named after it, with the area of its surface.
-TEST(WallGrid, pieces_are_zones)
-{
-  const auto half_circle = [](double side) {
-    return [side](const double *x) {    // two circles of radius 1
-      return std::hypot(x[0] - (4.0 + 2.0 * side), x[1] - 4.0) - 1.0;
-    };
-  };
-  GridScene scene(2, 0.1,
-                  {{"distance_left", half_circle(-1.0)}, {"distance_right", half_circle(1.0)}},
-                  {{0.51, 4.0, 0.0}, {2.0, 5.49, 0.0}, {6.0, 5.49, 0.0}}, jkr);
-  scene.sim.run("run 0");
-  EXPECT_EQ(scene.sim.value("f_wall[1][8]"), 2.0);    // attached
-  EXPECT_EQ(scene.sim.value("f_wall[2][8]"), 1.0);
-  EXPECT_EQ(scene.sim.value("f_wall[3][8]"), 3.0);
-  for (int row : {1, 2})    // chords of a tenth: 1 - h^2/24 or better
-    EXPECT_NEAR(scene.sim.value("f_wall[" + std::to_string(row) + "][13]") / (2.0 * pi), 1.0, 1e-3);
 }
