@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -136,8 +137,10 @@ void FixWallLevelset::init()
                  command, id, smallest[2], surface.radius);
   const double r = 1.0 / smallest[0], m = 1.0 / smallest[1];
   if (grid) check_grid(r, smallest[2]);
-  for (const auto &surface : surfaces) {
-    const double R = surface.contact_radius(r);
+  check_reach(r);
+  std::set<double> contact_radii;    // one message for all surfaces of the same
+  for (const auto &surface : surfaces) contact_radii.insert(surface.contact_radius(r));
+  for (const double R : contact_radii) {
     check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, R, r);
     if (step_is_given()) {
       auto bodies = apf::ContactBodies::wall(r, m, 0.4 * m * r * r);
@@ -145,6 +148,23 @@ void FixWallLevelset::init()
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
                      apf::stiffest_mode(coefficient.model, bodies), step_of_level());
     }
+  }
+}
+
+// A particle beyond a fixed border of the box is lost, before it comes to a plane farther out.
+void FixWallLevelset::check_reach(double smallest)
+{
+  if (comm->me != 0) return;
+  for (const auto &surface : surfaces) {
+    if (surface.shape != apf::Surface::Shape::plane) continue;
+    const int dim = surface.dim, upper = surface.side < 0.0;
+    const double border = upper ? domain->boxhi[dim] : domain->boxlo[dim];
+    const double beyond = (border - surface.origin[0]) * surface.side;
+    if (domain->boundary[dim][upper] == 1 && beyond > smallest)
+      error->warning(FLERR,
+                     "{} {}: the plane {} = {} is {:.3g} outside of the box, whose fixed border is "
+                     "at {}: particles are lost before they touch it",
+                     command, id, "xyz"[dim], surface.origin[0], beyond, border);
   }
 }
 
