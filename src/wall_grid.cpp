@@ -16,8 +16,7 @@ static constexpr double crease = 0.1;      // of the slope's size: there is no d
 static constexpr double flat = 1.0e-6;     // curvature that is rounding, in the same units
 static constexpr double uniform = 0.02;    // spread of a curvature that counts as the same, in
                                            // units of the inverse radius of the largest particle
-static constexpr double on_wall =
-    1.0e-6;    // distance of a node that lies on the wall, in spacings
+static constexpr double on_wall = 1e-6;    // farthest of a node on the wall, in spacings
 
 /* ---------------------------------------------------------------------- */
 
