@@ -30,8 +30,7 @@ class Words {
 
   void need(int n, const std::string &keyword) const
   {
-    if (iarg + n > narg)
-      utils::missing_cmd_args(FLERR, fmt::format("{} {}", lower(), keyword), lmp->error);
+    if (iarg + n > narg) refuse(fmt::format("{}: missing argument(s)", keyword));
   }
 
   const char *text(const std::string &keyword)
@@ -42,18 +41,17 @@ class Words {
 
   double number(const std::string &keyword, double low, bool low_allowed, double high)
   {
-    need(1, keyword);
+    const std::string range = std::isinf(high)
+        ? fmt::format("{} {}", low_allowed ? ">=" : ">", low)
+        : fmt::format("in {}{}, {}]", low_allowed ? '[' : '(', low, high);
+    if (at_end()) refuse(fmt::format("{} is missing; it must be {}", keyword, range));
     if (!utils::is_double(arg[iarg]))
       lmp->error->all(FLERR, offset + iarg, "{} {} must be a number, got {}", command, keyword,
                       arg[iarg]);
     const double value = utils::numeric(FLERR, arg[iarg], false, lmp);
-    if (!(low_allowed ? value >= low : value > low) || !(value <= high)) {
-      const std::string range = std::isinf(high)
-          ? fmt::format("{} {}", low_allowed ? ">=" : ">", low)
-          : fmt::format("in {}{}, {}]", low_allowed ? '[' : '(', low, high);
+    if (!(low_allowed ? value >= low : value > low) || !(value <= high))
       lmp->error->all(FLERR, offset + iarg, "{} {} must be {}, got {}", command, keyword, range,
                       arg[iarg]);
-    }
     if (value > largest)
       lmp->error->all(FLERR, offset + iarg, "{} {} must be <= {}, got {}", command, keyword,
                       largest, arg[iarg]);
@@ -79,8 +77,6 @@ class Words {
   char **arg;
   int &iarg;
   int offset;
-
-  std::string lower() const { return utils::lowercase(command); }
 };
 
 void parse_damping(Words &words, apf::ContactModel &model)
@@ -243,10 +239,9 @@ ContactCoeff LAMMPS_NS::parse_contact(LAMMPS *lmp, const char *command, int narg
 {
   Words words(lmp, command, narg, arg, iarg, offset);
   ContactCoeff coeff;
-  words.need(1, "jkr|material");
+  words.need(1, "contact law");
   if (words.is("jkr")) {
     words.skip();
-    words.need(3, "jkr");
     coeff.material.E = words.number("Young's modulus E", 0.0, false, infinity);
     coeff.material.nu = words.number("Poisson's ratio nu", -1.0, false, 0.5);
     coeff.material.gamma = words.number("surface energy gamma", 0.0, true, infinity);

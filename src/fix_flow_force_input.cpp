@@ -267,6 +267,19 @@ void FixFlowForce::check_other_fixes()
                        "Fix flow/force {}: keyword gravity and fix {} gravity both act on the same "
                        "particles: their weight counts twice",
                        id, other->id);
+  if (modify->get_fix_by_style("^nve/sphere/mts").empty()) {
+    bool later = false;
+    for (const auto &other : modify->get_fix_list()) {
+      later = later || other == this;
+      if (later && utils::strmatch(other->style, "^wall/levelset") &&
+          shares_atoms(other->groupbit) && comm->me == 0)
+        error->warning(
+            FLERR,
+            "Fix flow/force {} stands before fix {} {}: drag on particles that this wall "
+            "holds is too small at long time steps; define it after all walls",
+            id, other->id, other->style);
+    }
+  }
   if (!model.added_mass) return;
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, Error::NOLASTLINE,

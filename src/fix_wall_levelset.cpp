@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -129,8 +130,10 @@ void FixWallLevelset::init()
                  "largest particle, {}, got {}",
                  command, id, sizes.largest_radius(), surface.radius);
   if (grid) check_grid(r, sizes.largest_radius());
-  for (const auto &surface : surfaces) {
-    const double R = surface.contact_radius(r);
+  check_reach(r);
+  std::set<double> contact_radii;    // one message for all surfaces of the same
+  for (const auto &surface : surfaces) contact_radii.insert(surface.contact_radius(r));
+  for (const double R : contact_radii) {
     check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, R, r);
     if (step_is_given() && m > 0.0) {    // LAMMPS's own inserters do not tell the mass
       auto bodies = apf::ContactBodies::wall(r, m, 0.4 * m * r * r);
@@ -138,6 +141,23 @@ void FixWallLevelset::init()
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
                      apf::stiffest_mode(coefficient.model, bodies), step_of_level());
     }
+  }
+}
+
+// A particle beyond a fixed border of the box is lost, before it comes to a plane farther out.
+void FixWallLevelset::check_reach(double smallest)
+{
+  if (comm->me != 0) return;
+  for (const auto &surface : surfaces) {
+    if (surface.shape != apf::Surface::Shape::plane) continue;
+    const int dim = surface.dim, upper = surface.side < 0.0;
+    const double border = upper ? domain->boxhi[dim] : domain->boxlo[dim];
+    const double beyond = (border - surface.origin[0]) * surface.side;
+    if (domain->boundary[dim][upper] == 1 && beyond > smallest)
+      error->warning(FLERR,
+                     "{} {}: the plane {} = {} is {:.3g} outside of the box, whose fixed border is "
+                     "at {}: particles are lost before they touch it",
+                     command, id, "xyz"[dim], surface.origin[0], beyond, border);
   }
 }
 

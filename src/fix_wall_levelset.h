@@ -111,6 +111,7 @@ class FixWallLevelset : public FixContacts {
   void touch(int i, int surface);
   apf::Foot foot_of(int surface, const double *x) const;
   bool farther(int surface, const double *x, double than) const;
+  void check_reach(double smallest);
   void check_grid(double smallest, double largest);
   void follow_curvature();
   double speed_near(const double *x) const;    // of the wall, if it reached there

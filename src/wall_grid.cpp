@@ -18,6 +18,7 @@ static constexpr double crease = 0.1;      // of the slope's size: there is no d
 static constexpr double flat = 1.0e-6;     // curvature that is rounding, in the same units
 static constexpr double uniform = 0.02;    // spread of a curvature that counts as the same, in
                                            // units of the inverse radius of the largest particle
+static constexpr double on_wall = 1e-6;    // farthest of a node on the wall, in spacings
 
 /* ---------------------------------------------------------------------- */
 
@@ -110,7 +111,9 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
     const std::string where = fmt::format("{} file {}: array {}", command, path, pieces[n]);
     if (survey.nodes == 0) {
       if (comm->me == 0)
-        error->warning(FLERR, "{} has no node that is {} to {} from the wall: nothing can touch it",
+        error->warning(FLERR,
+                       "{} has no node within {} to {} of the wall, where particles of these radii "
+                       "would touch it: do their diameters and the grid have the same unit?",
                        where, smallest, largest);
       continue;
     }
@@ -173,7 +176,10 @@ std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
     double x[3] = {};
     for (int axis = 0; axis < lattice.dims; axis++)
       x[axis] = lattice.origin[axis] + index[axis] * lattice.spacing[axis];
-    values[node] = field.grid.distance(x);
+    const double distance = field.grid.distance(x);
+    // a wall along the border of the grid has no nodes behind it: those on it stand for them
+    const double least = on_wall * spacing;
+    values[node] = std::fabs(distance) < least ? -least : distance;
   });
   apf::Isosurface(lattice, values).for_each([&](const std::array<double, 3> *corners) {
     // where the wall goes through nodes; such triangles would be drawn black

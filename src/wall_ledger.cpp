@@ -58,6 +58,7 @@ void WallLedger::parse(const char *command, const std::vector<std::string> &surf
 void WallLedger::complete(const std::vector<std::string> &surface_names, const WallGrid *grid)
 {
   from_file = grid;
+  of_surfaces = joined(surface_names);
   if (zones.empty())
     for (int s = 0; s < static_cast<int>(surface_names.size()); s++)
       zones.push_back({surface_names[s], s, "", nullptr});
@@ -225,7 +226,7 @@ std::vector<double> WallLedger::state() const
   mine.insert(mine.end(), ended.begin(), ended.end());
   all.resize(mine.size());
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, world);
-  const std::string text = names();
+  const std::string text = places();
   all.insert(all.begin(), text.begin(), text.end());
   all.insert(all.begin(), static_cast<double>(text.size()));
   return all;
@@ -235,12 +236,12 @@ void WallLedger::set_state(const double *state, const std::string &of_fix)
 {
   const auto length = static_cast<size_t>(*state++);
   const std::string saved(state, state + length);
-  if (saved != names())
+  if (saved != places())
     error->all(
         FLERR,
         "{}: the zones in the restart file are {}, those of the command are {}; give the same, "
         "or the fix another ID to count anew",
-        of_fix, saved, names());
+        of_fix, saved, places());
   if (comm->me != 0) return;    // counts are sums over ranks
   state += length;
   std::copy(state, state + begun.size(), begun.begin());

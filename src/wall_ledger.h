@@ -78,7 +78,7 @@ class WallLedger : protected Pointers {
   double area(int row);                       // 0 if the box holds nothing of a zone
   double per_area(double amount, int row);    // ... and this too
 
-  // counts since the fix was defined, with the names of zones, for restart files
+  // counts since the fix was defined, with the names of zones and surfaces, for restart files
   std::vector<double> state() const;
   void set_state(const double *state, const std::string &of_fix);
 
@@ -94,6 +94,7 @@ class WallLedger : protected Pointers {
 
   const std::vector<apf::Surface> &surfaces;
   const WallGrid *from_file = nullptr;
+  std::string of_surfaces;    // their names
   std::vector<Zone> zones;
   std::vector<int> only_zone;    // of each surface; -1 if regions may divide it
   std::vector<std::array<double, 6>> loads;
@@ -106,6 +107,7 @@ class WallLedger : protected Pointers {
 
   void count(std::vector<double> &counts, int zone, Marks others);
   void find_only_zones();
+  std::string places() const { return names() + " (surfaces: " + of_surfaces + ")"; }
   void measure_areas();
 };
 

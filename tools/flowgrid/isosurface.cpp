@@ -11,6 +11,7 @@
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace flowgrid {
@@ -32,10 +33,14 @@ long write_isosurface(const std::string &path, const Grid &grid,
 
   vtkNew<vtkContourFilter> contour;
   contour->SetInputData(image);
-  contour->SetValue(0, 0.0);
+  // nodes on the wall count as behind it: along the border of the grid there are no others
+  const double on_wall = 1.0e-6 * *std::min_element(grid.spacing.begin(), grid.spacing.end());
+  contour->SetValue(0, on_wall);
   contour->ComputeNormalsOff();
   vtkNew<vtkCleanPolyData> clean;    // nodes on the wall give triangles without area
   clean->SetInputConnection(contour->GetOutputPort());
+  clean->ToleranceIsAbsoluteOn();
+  clean->SetAbsoluteTolerance(10.0 * on_wall);
   vtkNew<vtkTriangleFilter> triangles;
   triangles->PassLinesOff();
   triangles->PassVertsOff();

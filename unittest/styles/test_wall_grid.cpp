@@ -423,3 +423,18 @@ TEST(RanksWallGrid, sphere_in_a_sphere_with_restart)
   EXPECT_GT(largest(whole.v), 0.1);
   expect_same(parts, whole, 1e-12);
 }
+
+// Walls along all borders of the grid and the box, to rounding: the cube of 8 has six faces of 64.
+TEST(WallGrid, walls_on_the_border_have_their_area)
+{
+  std::map<std::string, Shape> faces;
+  for (int axis = 0; axis < 3; axis++)
+    faces["distance_" + std::to_string(axis)] = [axis](const double *x) {
+      const double rounding = 1.0e-12;
+      return (x[axis] < 4.0 ? x[axis] : 8.0 - x[axis]) + rounding;
+    };
+  GridScene scene(3, 0.25, faces, {{0.49, 4.0, 4.0}}, jkr);
+  scene.sim.run("run 0");
+  for (int row : {1, 2, 3})
+    EXPECT_NEAR(scene.sim.value("f_wall[" + std::to_string(row) + "][13]") / 128.0, 1.0, 1e-6);
+}

@@ -408,6 +408,22 @@ TEST(Walls, isosurface_holds_the_volume_of_a_sphere)
   EXPECT_NEAR(mass->GetSurfaceArea(), pi, 0.01 * pi);
 }
 
+// A cube whose walls lie on the borders of the grid has six faces.
+TEST(Walls, isosurface_has_walls_along_the_border)
+{
+  const Folder folder;
+  const auto run = flowgrid_with(
+      "--shape 'c: inside(box(0,0,0, 0.3,0.3,0.3))' " + (folder / "c.vtkhdf") +
+      " --spacing 0.02 --bounds 0 0.3 0 0.3 0 0.3 --isosurface " + (folder / "c.vtp"));
+  ASSERT_EQ(run.status, 0) << run.text;
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder / "c.vtp").c_str());
+  vtkNew<vtkMassProperties> mass;
+  mass->SetInputConnection(reader->GetOutputPort());
+  const double chamfers = 12 * 0.3 * 0.02 * (2.0 - std::sqrt(2.0));    // a cell wide
+  EXPECT_NEAR(mass->GetSurfaceArea(), 6 * 0.3 * 0.3 - chamfers, 0.005);
+}
+
 TEST(Walls, wrong_shapes_are_pointed_at)
 {
   const Folder folder;
