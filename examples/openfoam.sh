@@ -14,7 +14,9 @@ solve() {
     grep -q "\b${word%%=*} [^;]*;" "$case/system/mesh" || { echo "no ${word%%=*} in system/mesh"; exit 1; }
     sed -i "s|\b${word%%=*} [^;]*;|${word%%=*} ${word#*=};|" "$case/system/mesh"
   done
-  (cd "$case" && blockMesh >log.blockMesh && simpleFoam >log.simpleFoam) ||
+  (cd "$case" && blockMesh >log.blockMesh &&
+    if [ -e system/mirrorMeshDict ]; then mirrorMesh -overwrite >log.mirrorMesh; fi &&
+    simpleFoam >log.simpleFoam) ||
     { tail -n 20 "$case"/log.*; exit 1; }
   grep 'solution converged' "$case/log.simpleFoam" || { echo "simpleFoam has not converged"; exit 1; }
 }
