@@ -11,12 +11,14 @@ solve() {
   rm -rf "${case:?}"/*
   cp -r "$here"/case/. "$case"
   for word in "$@"; do
-    grep -q "\b${word%%=*} [^;]*;" "$case/system/mesh" || { echo "no ${word%%=*} in system/mesh"; exit 1; }
+    grep -q "\b${word%%=*} [^;]*;" "$case/system/mesh" || { echo "no ${word%%=*} in system/mesh" >&2; exit 1; }
     sed -i "s|\b${word%%=*} [^;]*;|${word%%=*} ${word#*=};|" "$case/system/mesh"
   done
-  (cd "$case" && blockMesh >log.blockMesh && simpleFoam >log.simpleFoam) ||
-    { tail -n 20 "$case"/log.*; exit 1; }
-  grep 'solution converged' "$case/log.simpleFoam" || { echo "simpleFoam has not converged"; exit 1; }
+  (cd "$case" && blockMesh >log.blockMesh &&
+    if [ -e system/mirrorMeshDict ]; then mirrorMesh -overwrite >log.mirrorMesh; fi &&
+    simpleFoam >log.simpleFoam) ||
+    { tail -n 20 "$case"/log.* >&2; exit 1; }
+  grep 'solution converged' "$case/log.simpleFoam" || { echo "simpleFoam has not converged" >&2; exit 1; }
 }
 
 # drag along x of the function object `drag`, at the end

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Air past a row of fibers with OpenFOAM, on a Cartesian grid:   flow.sh W [CELLS [FOLDER]]
+# Air past a row of fibers with OpenFOAM, on a Cartesian grid:   flow.sh W [CELLS [FOLDER [SPACING]]]
 # makes fiber-wW.vtkhdf for fibers at a distance of W radii. CELLS (48) lie on a quarter of the fiber.
-# With CELLS = table it prints the drag on the fiber for 24, 48 and 96 instead.
+# SPACING (5e-7 m) is that of the grid; 1.25e-7 for full runs. With CELLS = table it prints the drag on the fiber for
+# 24, 48 and 96 instead.
 source "$(dirname "${BASH_SOURCE[0]}")/../openfoam.sh"
-W=${1:-8} cells=${2:-48} out=${3:-$here}
+W=${1:-8} cells=${2:-48} out=${3:-$here} spacing=${4:-5e-7}
 half=$(awk "BEGIN { print $W / 2 }")
 
 row() { # of fibers, with $1 cells on a quarter of each
@@ -17,5 +18,5 @@ if [ "$cells" = table ]; then
   exit
 fi
 row "$cells"
-map "$out/fiber-w$W.vtkhdf" --spacing 5e-7 5e-7 2e-5 --compress --shape "fiber: disc(0,0, 1e-5)" \
+map "$out/fiber-w$W.vtkhdf" --spacing "$spacing" "$spacing" 2e-5 --compress --shape "fiber: disc(0,0, 1e-5)" \
   --bounds -4e-5 4e-5 -${half}e-5 ${half}e-5 -1e-5 1e-5

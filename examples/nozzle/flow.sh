@@ -23,10 +23,11 @@ nozzle "$cells"
 # a channel of width 1 from -20, the contraction from 0 to LENGTH, the exit of width 0.2, in half millimeters
 corners() { # of the solid above (1) or below (-1); faces that lie in one plane would be taken for one
   awk -v s="$1" -v c="$length" 'BEGIN {
-    n = split("-20 0.5 0 0.5 " (c ? c : 1e-6 * (s < 0)) " 0.1 20 0.1 20 2 -20 2", v, " ")
+    x = c == 0 && s < 0 ? 1e-6 : 0
+    n = split("-20 0.5 " x " 0.5 " c + x " 0.1 20 0.1 20 2 -20 2", v, " ")
     for (k = 1; k <= n; k++) printf "%s%.10g", (k > 1 ? ", " : ""), v[k] * (k % 2 ? 1 : s) * 5e-4 }'
 }
 solids=(--crease 15 --shape "above: polygon($(corners 1))" --shape "below: polygon($(corners -1))")
 bounds=(--bounds -2.5e-3 "$(awk "BEGIN { print $end * 5e-4 }")" -2.55e-4 2.55e-4 0 0)
 map "$out/nozzle-$length.vtkhdf" --planar 2.5e-4 --spacing 5e-6 --compress "${bounds[@]}" "${solids[@]}"
-walls "$out/nozzle-$length-walls.vtkhdf" --spacing 9e-7 --planar 0 --band 8 --particle 1e-5 --compress "${bounds[@]}" "${solids[@]}"
+walls "$out/nozzle-$length-walls.vtkhdf" --spacing 8e-7 --planar 0 --band 8 --particle 1e-5 --compress "${bounds[@]}" "${solids[@]}"

@@ -47,7 +47,8 @@ TEST(Examples, nozzle)
 
 TEST(Examples, radiator)
 {
-  EXPECT_EQ(verdict("radiator", "radiator", {"-var", "t", "1"}), "pass");
+  EXPECT_EQ(verdict("radiator", "radiator", {"-var", "t", "3"}), "pass");
+  EXPECT_EQ(verdict("radiator", "radiator", {"-var", "t", "3", "-var", "wet", "yes"}), "pass");
 }
 
 TEST(Examples, duct)
