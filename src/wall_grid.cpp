@@ -183,7 +183,7 @@ std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
   });
   apf::Isosurface(lattice, values).for_each([&](const std::array<double, 3> *corners) {
     // where the wall goes through nodes; such triangles would be drawn black
-    if (lattice.dims == 3 && has_no_area(corners, 1.0e-9 * spacing * spacing)) return;
+    if (lattice.dims == 3 && has_no_area(corners, 10.0 * on_wall * spacing * spacing)) return;
     const auto &last = corners[lattice.dims - 1];
     double middle[3];
     for (int c = 0; c < 3; c++) middle[c] = (corners[0][c] + corners[1][c] + last[c]) / 3.0;
