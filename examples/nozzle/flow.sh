@@ -30,4 +30,4 @@ corners() { # of the solid above (1) or below (-1); faces that lie in one plane 
 solids=(--crease 15 --shape "above: polygon($(corners 1))" --shape "below: polygon($(corners -1))")
 bounds=(--bounds -2.5e-3 "$(awk "BEGIN { print $end * 5e-4 }")" -2.55e-4 2.55e-4 0 0)
 map "$out/nozzle-$length.vtkhdf" --planar 2.5e-4 --spacing 5e-6 --compress "${bounds[@]}" "${solids[@]}"
-walls "$out/nozzle-$length-walls.vtkhdf" --spacing 8e-7 --planar 0 --band 8 --particle 1e-5 --compress "${bounds[@]}" "${solids[@]}"
+walls "$out/nozzle-$length-walls.vtkhdf" --spacing 7e-7 --planar 0 --band 8 --particle 1e-5 --compress "${bounds[@]}" "${solids[@]}"
