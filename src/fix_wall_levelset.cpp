@@ -137,15 +137,19 @@ void FixWallLevelset::init()
   const double r = 1.0 / smallest[0], m = 1.0 / smallest[1];
   if (grid) check_grid(r, smallest[2]);
   for (const auto &surface : surfaces) {
-    const double R = surface.contact_radius(r);
-    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, R, r);
-    if (step_is_given()) {
-      auto bodies = apf::ContactBodies::wall(r, m, 0.4 * m * r * r);
-      bodies.R = R;
+    const auto bodies = bodies_at(surface, r, m);
+    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, bodies.R, r);
+    if (step_is_given())
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
                      apf::stiffest_mode(coefficient.model, bodies), step_of_level());
-    }
   }
+}
+
+apf::ContactBodies FixWallLevelset::bodies_at(const apf::Surface &surface, double r, double m)
+{
+  auto bodies = apf::ContactBodies::wall(r, m, 0.4 * m * r * r);
+  bodies.R = surface.contact_radius(r);
+  return bodies;
 }
 
 // The numbers of a grid must be good enough for the particles that are there or will be inserted.
