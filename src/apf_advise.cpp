@@ -70,7 +70,7 @@ void APFAdvise::parse(int narg, char **arg)
    the scene
 ------------------------------------------------------------------------- */
 
-// The largest particle of a type is as dense as its smallest: the types say no more of those to come.
+// The largest particle of a type is taken to be as dense as its smallest.
 void APFAdvise::find_sizes()
 {
   const auto found = TypeSizes::find(lmp, "Command apf_advise");

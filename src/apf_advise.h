@@ -1,4 +1,4 @@
-// Command apf_advise: time steps, dimensionless numbers and ranges of validity of the scene as it is.
+// Command apf_advise: time steps, dimensionless numbers and ranges of the scene as it is.
 
 #ifdef COMMAND_CLASS
 // clang-format off
