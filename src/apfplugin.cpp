@@ -6,6 +6,7 @@
 #include "error.h"
 #include "version.h"
 
+#include "apf_advise.h"
 #include "compute_aggregate_contact.h"
 #include "compute_wall_deposit.h"
 #include "fix_contact_history.h"
@@ -93,4 +94,7 @@ extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *l
 
   creates_with_words(&create_with_words<ComputeWallDeposit>);
   add("compute", "wall/deposit", "what has settled on a wall, APF " APF_VERSION);
+
+  creates(&create<APFAdvise>);
+  add("command", "apf_advise", "judges time steps and ranges of a scene, APF " APF_VERSION);
 }

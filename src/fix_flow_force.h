@@ -38,6 +38,8 @@ class FixFlowForce : public FixPerGrid {
   double compute_vector(int) override;
   double memory_usage() override;
 
+  const apf::FluidModel &fluid_model() const { return model; }
+
   // Takes the last drag and torque on local atom i out of its acceleration, and puts the rates and
   // velocities of relaxation there instead.
   void relax(int i, apf::Slow &) const;

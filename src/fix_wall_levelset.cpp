@@ -132,15 +132,13 @@ void FixWallLevelset::init()
   if (grid) check_grid(r, sizes.largest_radius());
   check_reach(r);
   std::set<double> contact_radii;    // one message for all surfaces of the same
-  for (const auto &surface : surfaces) contact_radii.insert(surface.contact_radius(r));
-  for (const double R : contact_radii) {
-    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, R, r);
-    if (step_is_given() && m > 0.0) {    // LAMMPS's own inserters do not tell the mass
-      auto bodies = apf::ContactBodies::wall(r, m, 0.4 * m * r * r);
-      bodies.R = R;
+  for (const auto &surface : surfaces) {
+    const auto bodies = bodies_at(surface, r, m);
+    if (!contact_radii.insert(bodies.R).second) continue;
+    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, bodies.R, r);
+    if (step_is_given() && m > 0.0)    // LAMMPS's own inserters do not tell the mass
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
                      apf::stiffest_mode(coefficient.model, bodies), step_of_level());
-    }
   }
 }
 
@@ -159,6 +157,13 @@ void FixWallLevelset::check_reach(double smallest)
                      "at {}: particles are lost before they touch it",
                      command, id, "xyz"[dim], surface.origin[0], beyond, border);
   }
+}
+
+apf::ContactBodies FixWallLevelset::bodies_at(const apf::Surface &surface, double r, double m)
+{
+  auto bodies = apf::ContactBodies::wall(r, m, 0.4 * m * r * r);
+  bodies.R = surface.contact_radius(r);
+  return bodies;
 }
 
 // The numbers of a grid must be good enough for the particles that are there or will be inserted.

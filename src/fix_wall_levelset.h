@@ -48,6 +48,11 @@ class FixWallLevelset : public FixContacts {
   void find_stiffest(apf::Stiffest &) override;
   void settle_bridges() override;
 
+  // ---- for apf_advise and the checks of a run's start: the contact of a sphere at one surface
+  const std::vector<apf::Surface> &all_surfaces() const { return surfaces; }
+  const apf::ContactModel &contact_model() const { return coefficient.model; }
+  static apf::ContactBodies bodies_at(const apf::Surface &, double radius, double mass);
+
   // ---- for compute wall/deposit
   WallLedger &zones() { return ledger; }
   std::vector<WallTouch> touches();

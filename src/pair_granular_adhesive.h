@@ -49,6 +49,7 @@ class PairGranularAdhesive : public Pair {
   bool planar() const { return choice.planar; }
   void list_was_built() { rebuild = true; }
   apf::StiffestMode stiffest_possible() const;    // of any two particles
+  const apf::ContactModel &model_of_types(int i, int j) const { return coefficients[i][j].model; }
 
   // sub-steps of a particle step, see FixContacts
   void find_fastest(apf::LookAhead &);

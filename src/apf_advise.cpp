@@ -1,0 +1,283 @@
+#include "apf_advise.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_flow_field.h"
+#include "fix_flow_force.h"
+#include "fix_nve_sphere_mts.h"
+#include "fix_wall_levelset.h"
+#include "force.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair_granular_adhesive.h"
+#include "type_sizes.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+void APFAdvise::command(int narg, char **arg)
+{
+  if (!domain->box_exist) error->all(FLERR, "Command apf_advise needs a simulation box");
+  parse(narg, arg);
+  auto *pair = dynamic_cast<PairGranularAdhesive *>(force->pair_match("granular/adhesive", 1));
+  if (!pair) error->all(FLERR, "Command apf_advise needs pair style granular/adhesive");
+  lmp->init();
+
+  FixFlowField *field = nullptr;
+  for (const auto &fix : modify->get_fix_list())
+    if (auto *found = dynamic_cast<FixFlowField *>(fix)) field = found;
+  if (field) {
+    field->require(apf::Detail::VORTICITY);
+    field->setup_pre_force(0);
+  }
+  find_sizes();
+  find_motion(field);
+  find_length();
+  scene.step = update->dt;
+
+  say(fmt::format("APF advice: speed U = {:.6g}{}, length L = {:.6g}{}, timestep {:.6g}", scene.U,
+                  speed_given ? "" : " (largest at the particles)", scene.L,
+                  length_given ? "" : " (shortest box edge)", scene.step));
+  advise_contacts(pair);
+  advise_steps();
+  if (field) advise_fluid(field);
+  for (const auto &cure : cures) say("  change: " + cure);
+  if (cures.empty()) say("  nothing to change");
+}
+
+void APFAdvise::parse(int narg, char **arg)
+{
+  for (int iarg = 0; iarg < narg; iarg += 2) {
+    const std::string word = arg[iarg];
+    if (word != "speed" && word != "length")
+      error->all(FLERR, iarg, "Command apf_advise keyword must be speed or length, got {}", word);
+    if (iarg + 1 == narg) utils::missing_cmd_args(FLERR, "apf_advise " + word, error);
+    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (!(value > 0.0))
+      error->all(FLERR, iarg + 1, "Command apf_advise {} must be > 0, got {}", word, arg[iarg + 1]);
+    (word == "speed" ? scene.U : scene.L) = value;
+    (word == "speed" ? speed_given : length_given) = true;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the scene
+------------------------------------------------------------------------- */
+
+// The largest particle of a type is taken to be as dense as its smallest.
+void APFAdvise::find_sizes()
+{
+  const auto found = TypeSizes::find(lmp, "Command apf_advise");
+  for (int type = 1; type <= atom->ntypes; type++) {
+    const double least = found.radius_min[type], most = found.radius_max[type];
+    if (found.mass_min[type] == 0.0) continue;
+    const Size smallest{type, least, found.mass_min[type]};
+    sizes.push_back(smallest);
+    if (most > least)
+      sizes.push_back({type, most, smallest.density() * apf::sphere::volume(2.0 * most)});
+  }
+  if (sizes.empty())
+    error->all(FLERR,
+               "Command apf_advise needs particles, or a fix inlet/flow that will insert some");
+}
+
+void APFAdvise::find_motion(FixFlowField *field)
+{
+  double most[7] = {};    // speed; velocities of both signs
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *v = atom->v[i];
+    most[0] = std::max(most[0], MathExtra::len3(v));
+  }
+  std::fill(most + 1, most + 7, -1.0e300);
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int c = 0; c < 3; c++) {
+      most[1 + c] = std::max(most[1 + c], atom->v[i][c]);
+      most[4 + c] = std::max(most[4 + c], -atom->v[i][c]);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, most, 7, MPI_DOUBLE, MPI_MAX, world);
+  const double width[3] = {most[1] + most[4], most[2] + most[5], most[3] + most[6]};
+  if (!speed_given) {
+    scene.U = most[0];
+    if (field) scene.U = std::max(scene.U, fluid_at_particles(field).speed);
+  }
+  scene.spread = atom->natoms > 0 ? MathExtra::len3(width) : 0.0;
+  scene.spread = std::max(scene.spread, scene.U);    // what is at rest now may come to move so
+  if (scene.U == 0.0)
+    error->all(FLERR,
+               "Command apf_advise finds no particle and no fluid at one that moves: add keyword "
+               "speed with the speed to expect");
+}
+
+APFAdvise::Fluid APFAdvise::fluid_at_particles(FixFlowField *field) const
+{
+  double most[3] = {};
+  apf::PointBlock points;
+  apf::FluidBlock fluid;
+  for (int i = 0; i < atom->nlocal; i++) {
+    points.n = 1;
+    points.set(0, atom->x[i]);
+    field->sample(points, apf::Detail::VORTICITY, fluid);
+    double u[3], slip[3], spin[3];
+    for (int c = 0; c < 3; c++) {
+      u[c] = fluid.velocity[c][0];
+      slip[c] = atom->v[i][c] - u[c];
+      spin[c] = fluid.vorticity[c][0];
+    }
+    most[0] = std::max(most[0], MathExtra::len3(u));
+    most[1] = std::max(most[1], MathExtra::len3(slip));
+    most[2] = std::max(most[2], MathExtra::len3(spin));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, world);
+  return {most[0], most[1], most[2]};
+}
+
+void APFAdvise::find_length()
+{
+  if (length_given) return;
+  scene.L = std::min(domain->prd[0], domain->prd[1]);
+  if (domain->dimension == 3) scene.L = std::min(scene.L, domain->prd[2]);
+}
+
+/* ----------------------------------------------------------------------
+   contacts
+------------------------------------------------------------------------- */
+
+void APFAdvise::advise_contacts(PairGranularAdhesive *pair)
+{
+  say(fmt::format("  {:<26} {:>10} {:>10} {:>9} {:>9} {:>10} {:>10} {:>9} {:>9} {:>10} {:>10} "
+                  "{:>10} {:>10}",
+                  "contact", "a0", "delta_C", "rest/r", "impact/r", "V_s", "F_C", "phi", "lambda",
+                  "omega", "mode", "f3 step", "step"));
+  for (size_t i = 0; i < sizes.size(); i++)
+    for (size_t j = i; j < sizes.size(); j++) {
+      const Size &a = sizes[i], &b = sizes[j];
+      const double inv_m = 1.0 / a.mass + 1.0 / b.mass, inv_I = 1.0 / a.moment() + 1.0 / b.moment();
+      advise_contact(
+          fmt::format("{} {} d {:.4g} {:.4g}", a.type, b.type, 2.0 * a.radius, 2.0 * b.radius),
+          pair->model_of_types(a.type, b.type),
+          apf::ContactBodies::pair(a.radius, b.radius, 1.0 / inv_m, 1.0 / inv_I),
+          a.radius < b.radius ? a : b);
+    }
+  for (const auto &fix : modify->get_fix_list()) {
+    const auto *wall = dynamic_cast<FixWallLevelset *>(fix);
+    if (!wall) continue;
+    for (const auto &size : sizes) {
+      double last = 0.0;    // surfaces of one curvature are alike
+      for (const auto &surface : wall->all_surfaces()) {
+        const auto bodies = FixWallLevelset::bodies_at(surface, size.radius, size.mass);
+        if (bodies.R == last) continue;
+        last = bodies.R;
+        advise_contact(fmt::format("{} {} d {:.4g}", size.type, wall->id, 2.0 * size.radius),
+                       wall->contact_model(), bodies, size);
+      }
+    }
+  }
+}
+
+void APFAdvise::advise_contact(const std::string &name, const apf::ContactModel &model,
+                               const apf::ContactBodies &bodies, const Size &smaller)
+{
+  const auto contact = apf::ContactScales::make(model, bodies, scene.U);
+  const double r = smaller.radius, rho = smaller.density();
+  const double E = model.surface.E * model.stiffness_scale;
+  say(fmt::format("  {:<26} {:>10.4g} {:>10.4g} {:>9.4g} {:>9.4g} {:>10.4g} {:>10.4g} {:>9.4g} "
+                  "{:>9.4g} {:>10.4g} {:>10} {:>10.4g} {:>10.4g}",
+                  name, contact.contact_radius, contact.neck_length, contact.rest_overlap / r,
+                  contact.impact_overlap / r, contact.sticking_speed, contact.pulloff_force,
+                  scene.adhesion(model.surface.gamma, rho, r), scene.stiffness(E, rho),
+                  contact.rest.frequency, contact.rest.name(),
+                  scene.collision_step(2.0 * r, rho, E), contact.collision_step));
+  finest = finest > 0.0 ? std::min(finest, contact.collision_step) : contact.collision_step;
+  constexpr double much = 0.05;
+  if (std::max(contact.rest_overlap, contact.impact_overlap) > much * r)
+    cures.push_back(fmt::format("contact {}: overlap is {:.3g} of the radius at rest and {:.3g} in "
+                                "an impact at U; above {} take a larger E or scale_stiffness",
+                                name, contact.rest_overlap / r, contact.impact_overlap / r, much));
+}
+
+/* ----------------------------------------------------------------------
+   time steps, neighbor skin
+------------------------------------------------------------------------- */
+
+void APFAdvise::advise_steps()
+{
+  const auto smallest = std::min_element(sizes.begin(), sizes.end(), [](auto &a, auto &b) {
+    return a.radius < b.radius;
+  });
+  const double particle = scene.particle_step(2.0 * smallest->radius);
+  const double needed = std::ceil(scene.step / finest);
+  say(fmt::format(
+      "  steps: fluid f1 L/U {:.4g}, particle f2 d/U {:.4g}, collision {:.4g} (omega dt "
+      "= {}); ratios {:.4g} {:.4g}",
+      scene.fluid_step(), particle, finest, apf::accurate_kappa, scene.fluid_step() / particle,
+      particle / finest));
+  say(fmt::format("  timestep / collision step {:.4g}, neighbor skin {:.4g}, at least {:.4g}",
+                  scene.step / finest, neighbor->skin, scene.least_skin()));
+
+  const bool sub_steps = !modify->get_fix_by_style("^nve/sphere/mts").empty();
+  if (!sub_steps && needed > 1.0)
+    cures.push_back(
+        fmt::format("timestep {:.3g}, or fix nve/sphere/mts with collision {}", finest, needed));
+  if (sub_steps && scene.step > particle)
+    cures.push_back(fmt::format("timestep {:.3g} or less: a particle moves {:.3g} diameters in one",
+                                particle, scene.step / particle * apf::report_f2));
+  if (sub_steps && scene.least_skin() > neighbor->skin)
+    cures.push_back(fmt::format("neighbor {:.2g} bin or larger: impacts are looked for two "
+                                "timesteps ahead",
+                                scene.least_skin()));
+}
+
+/* ----------------------------------------------------------------------
+   fluid
+------------------------------------------------------------------------- */
+
+void APFAdvise::advise_fluid(FixFlowField *field)
+{
+  const auto at = fluid_at_particles(field);
+  double largest = 0.0;
+  for (const auto &size : sizes) {
+    const double d = 2.0 * size.radius;
+    const double tau = apf::relaxation_time(size.mass, d, field->viscosity);
+    largest = std::max(largest, d);
+    say(fmt::format("  fluid: type {} d {:.4g} tau_p {:.4g} St {:.4g} timestep/tau_p {:.4g} Re_p "
+                    "{:.4g} Re_G {:.4g}",
+                    size.type, d, tau, scene.stokes_number(tau), scene.step / tau,
+                    apf::particle_reynolds(at.slip, d, field->density, field->viscosity),
+                    apf::gradient_reynolds(at.vorticity, d, field->density, field->viscosity)));
+  }
+  say(fmt::format("  fluid: Re = rho_f U L/mu {:.4g}",
+                  scene.flow_reynolds(field->density, field->viscosity)));
+  advise_ranges(field, at, largest);
+}
+
+void APFAdvise::advise_ranges(FixFlowField *field, const Fluid &at, double d)
+{
+  const double Re = apf::particle_reynolds(at.slip, d, field->density, field->viscosity);
+  const double Re_G = apf::gradient_reynolds(at.vorticity, d, field->density, field->viscosity);
+  say("  ranges: drag stokes Re_p < 1, schiller Re_p < 800; lift saffman Re_p < 1, Re_G < 1, "
+      "Re_p < sqrt(Re_G)");
+  for (const auto &fix : modify->get_fix_list()) {
+    const auto *flow = dynamic_cast<FixFlowForce *>(fix);
+    if (!flow) continue;
+    const auto &model = flow->fluid_model();
+    if (model.drag == apf::FluidModel::STOKES && Re > 1.0)
+      cures.push_back(fmt::format("fix {}: drag schiller, Re_p is {:.3g}", fix->id, Re));
+    if (model.drag == apf::FluidModel::SCHILLER && Re > 800.0)
+      cures.push_back(fmt::format("fix {}: no drag law holds at Re_p {:.3g}", fix->id, Re));
+    if (model.lift && (Re > 1.0 || Re_G > 1.0 || Re * Re > Re_G))
+      cures.push_back(fmt::format("fix {}: lift saffman is out of its range, Re_p {:.3g}, Re_G "
+                                  "{:.3g}",
+                                  fix->id, Re, Re_G));
+  }
+}
+
+void APFAdvise::say(const std::string &line) const
+{
+  if (comm->me == 0) utils::logmesg(lmp, line + "\n");
+}
