@@ -224,7 +224,8 @@ void APFAdvise::advise_steps()
   if (!sub_steps && needed > 1.0)
     cures.push_back(
         fmt::format("timestep {:.3g}, or fix nve/sphere/mts with collision {}", finest, needed));
-  if (sub_steps && scene.step > particle)
+  constexpr double room = 1.1;    // the rule is one of thumb
+  if (sub_steps && scene.step > room * particle)
     cures.push_back(fmt::format("timestep {:.3g} or less: a particle moves {:.3g} diameters in one",
                                 particle, scene.step / particle * apf::report_f2));
   if (sub_steps && scene.least_skin() > neighbor->skin)
