@@ -55,3 +55,13 @@ TEST(Examples, duct)
 {
   EXPECT_EQ(verdict("duct", "duct", {}), "pass");
 }
+
+TEST(Examples, humid_channel)
+{
+  EXPECT_EQ(verdict("channel", "channel.humid", {"-var", "t", "1"}), "pass");
+}
+
+TEST(Examples, wetpair)
+{
+  EXPECT_EQ(verdict("wetpair", "wetpair", {}), "pass");
+}
