@@ -762,7 +762,11 @@ std::vector<WallTouch> FixWallLevelset::touches()
   std::vector<WallTouch> all;
   for (int k = 0; k < contacts.size(); k++) {
     const int i = contacts.source[k], s = surface_of[k];
-    all.push_back({i, s, zone_of(i, s)});
+    all.push_back({i, s, zone_of(i, s), true});
+  }
+  for (int b = 0; b < bridges.size(); b++) {
+    const int i = bridges.atoms()[b], s = bridges.surfaces()[b];
+    if (!(touched[i] >> s & 1)) all.push_back({i, s, zone_of(i, s), false});
   }
   return all;
 }

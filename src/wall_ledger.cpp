@@ -151,13 +151,14 @@ void WallLedger::settle(const std::vector<WallTouch> &touches, ComputeAggregateC
 {
   const bool planar = domain->dimension == 2;
   std::vector<Row> mine(account.size(), Row{});
-  std::vector<Marks> touching(atom->nlocal, 0);
+  std::vector<Marks> touching(atom->nlocal, 0), deposited(atom->nlocal, 0);
   for (const auto &touch : touches) {
+    deposited[touch.i] |= mark(touch.zone);
+    if (!touch.dry) continue;
     mine[touch.zone][CONTACTS] += 1.0;
     mine.back()[CONTACTS] += 1.0;
     touching[touch.i] |= mark(touch.zone);
   }
-  auto deposited = touching;
   if (aggregates) aggregates->spread(deposited);
 
   for (int row = 0; row <= n_zones(); row++) {

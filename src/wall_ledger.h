@@ -18,8 +18,9 @@ namespace LAMMPS_NS {
 
 using Marks = std::uint64_t;    // zones or surfaces, a bit each
 
-struct WallTouch {    // a contact that is closed now
+struct WallTouch {    // a contact that is closed now, or a liquid bridge without one
   int i, surface, zone;
+  bool dry;
 };
 
 // A zone is a surface of the wall, or the part of the wall in a region; where zones overlap the
@@ -31,7 +32,7 @@ class WallLedger : protected Pointers {
     TORQUE = 3,
     CONTACTS = 6,
     ATTACHED,     // particles that touch
-    DEPOSITED,    // ... or are in an aggregate that does
+    DEPOSITED,    // ... or hang on a bridge, or are in an aggregate of such ones
     CAPTURED,
     DETACHED,
     MASS,

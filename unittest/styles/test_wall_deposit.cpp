@@ -117,6 +117,25 @@ TEST(RanksDeposit, counts_its_group)
   expect_near(vector_of(sim), {2.0, 2.91, 2.0 * volume / 128.0});
 }
 
+// A sphere that hangs on a liquid bridge, and one that a bridge joins to it, stick without contact.
+TEST(RanksDeposit, what_a_bridge_holds_counts)
+{
+  Simulation sim;
+  Scene scene;
+  scene.boundary = "p p f";
+  const std::string law = " jkr 1e7 0.25 0 bridge 0.01 1 0 0";
+  scene.style = "pair_style granular/adhesive\npair_coeff * *" + law +
+      "\nfix wall all wall/levelset plane z 0 8" + law + "\ncompute dep all wall/deposit wall\n";
+  build(sim, {{2.0, 4.0, 0.4999}, {2.0, 4.0, 1.4998}, {5.0, 4.0, 0.55}}, scene);
+  sim.run("timestep 1e-13\nrun 0\nset atom 1 z 0.55\nset atom 2 z 1.6\nrun 0 post no");
+  expect_near(gather(sim, "c_dep", 1), {1.05, 2.1, 0.0});
+  expect_near(row(sim, 1), {2.0, 2.1, 2.0 * volume / 64.0});
+  EXPECT_EQ(sim.value("f_wall[10]"), 1.0);
+  EXPECT_EQ(sim.value("f_wall[1][7]"), 0.0) << "no contact";
+  EXPECT_EQ(sim.value("f_wall[1][8]"), 0.0);
+  EXPECT_EQ(sim.value("f_wall[1][9]"), 2.0) << "deposited";
+}
+
 TEST(Deposit, only_what_touches_with_another_pair_style)
 {
   Simulation sim;
