@@ -59,11 +59,14 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
         error->all(FLERR, iarg + 1, "{} resolution must be > 0, got {}", command, arg[iarg + 1]);
       if (!grid) error->all(FLERR, iarg, "{} resolution is for walls from a file", command);
       iarg += 2;
+    } else if (strcmp(arg[iarg], "film") == 0) {
+      bridges.parse_film(command, narg, arg, iarg);
     } else if (strcmp(arg[iarg], "zone") == 0) {
       ledger.parse(command, names, narg, arg, iarg);
     } else {
-      error->all(FLERR, iarg, "{} keyword {} is unknown; known are {}, move, resolution, zone",
-                 command, arg[iarg], contact_keywords);
+      error->all(FLERR, iarg,
+                 "{} keyword {} is unknown; known are {}, move, resolution, film, zone", command,
+                 arg[iarg], contact_keywords);
     }
   }
   ledger.complete(names, grid.get());
@@ -232,7 +235,10 @@ void FixWallLevelset::post_force(int vflag)
   motion.pose.advance(times.advance);
   contacts_change();
   const int before = contacts.size();
-  if (wet) bridges.detect(times.advance);
+  if (wet) {
+    bridges.measure_films();
+    bridges.detect(times.advance);
+  }
   detect();
   follow_curvature();
   share_masses();
@@ -741,7 +747,7 @@ double FixWallLevelset::compute_vector(int n)
     mine[8] = detached;
     mine[9] = bridges.size();
     mine[10] = bridges.liquid_held();
-    mine[11] = bridges.liquid;
+    mine[11] = ledger.total_liquid() + bridges.liquid_from_wall();
     MPI_Allreduce(mine, all_loads, 12, MPI_DOUBLE, MPI_SUM, world);
     loads_summed = true;
   }
@@ -773,11 +779,11 @@ std::vector<WallTouch> FixWallLevelset::touches()
 
 std::vector<double> FixWallLevelset::global_state() const
 {
-  double mine[3] = {captured, detached, bridges.liquid}, all[3];
-  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
-  std::vector<double> state = {all[0], all[1], all[2], motion.pose.moves ? 1.0 : 0.0};
-  state.resize(4 + apf::WallPose::state_size);
-  motion.pose.write(&state[4]);
+  double mine[2] = {captured, detached}, all[2];
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  std::vector<double> state = {all[0], all[1], motion.pose.moves ? 1.0 : 0.0};
+  state.resize(3 + apf::WallPose::state_size);
+  motion.pose.write(&state[3]);
   const auto of_zones = ledger.state();
   state.insert(state.end(), of_zones.begin(), of_zones.end());
   return state;
@@ -788,10 +794,9 @@ void FixWallLevelset::set_global_state(const double *state)
   if (comm->me == 0) {    // counts are sums over ranks
     captured = state[0];
     detached = state[1];
-    bridges.liquid = state[2];
   }
-  if (state[3] != 0.0 && motion.pose.moves) motion.pose.read(state + 4);
-  ledger.set_state(state + 4 + apf::WallPose::state_size, fmt::format("{} {}", command, id));
+  if (state[2] != 0.0 && motion.pose.moves) motion.pose.read(state + 3);
+  ledger.set_state(state + 3 + apf::WallPose::state_size, fmt::format("{} {}", command, id));
 }
 
 /* ----------------------------------------------------------------------

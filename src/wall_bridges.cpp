@@ -17,6 +17,18 @@ WallBridges::WallBridges(LAMMPS *lmp, FixWallLevelset *fix) :
 {
 }
 
+void WallBridges::parse_film(const char *command, int narg, char **arg, int &iarg)
+{
+  if (narg < iarg + 2) utils::missing_cmd_args(FLERR, "fix wall/levelset film", error);
+  first_film = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  if (!(first_film >= 0.0))
+    error->all(FLERR, iarg + 1, "{} film must be >= 0, got {}", command, arg[iarg + 1]);
+  if (!wall->coefficient.bridge.inventory())
+    error->all(FLERR, iarg, "{} film needs a law with keyword inventory", command);
+  if (domain->dimension == 2) error->all(FLERR, iarg, "{} film is for three dimensions", command);
+  iarg += 2;
+}
+
 void WallBridges::init()
 {
   const auto &model = wall->coefficient.bridge;
@@ -60,20 +72,45 @@ double WallBridges::count(int i) const
 
 /* ---------------------------------------------------------------------- */
 
-double WallBridges::liquid_for(int i) const
+void WallBridges::measure_films()
+{
+  if (first_film < 0.0) return;
+  wall->ledger.begin_films(first_film);
+  films = wall->ledger.films();
+  thickest_film = *std::max_element(films.begin(), films.end());
+}
+
+double WallBridges::film_at(int i, int surface) const
+{
+  return films.empty() ? 0.0 : films[wall->zone_of(i, surface)];
+}
+
+// Liquid that a new bridge gets: of the particle's, and of the film under the particle.
+apf::BridgeMemory WallBridges::intake(int i, int surface) const
 {
   const auto &model = wall->coefficient.bridge;
   const double r = atom->radius[i];
-  if (!model.inventory()) return model.volume(r);
-  return std::min(model.intake * wall->lender->liquid(i), model.largest_volume(r));
+  apf::BridgeMemory memory;
+  if (!model.inventory()) {
+    memory.volume_i = model.volume(r);
+    return memory;
+  }
+  memory.volume_i = model.intake * wall->lender->liquid(i);
+  memory.volume_j = model.intake * film_at(i, surface) * apf::pi * r * r;
+  const double share = std::min(1.0, model.largest_volume(r) / memory.volume());
+  if (share < 1.0) {
+    memory.volume_i *= share;
+    memory.volume_j *= share;
+  }
+  return memory;
 }
 
-double WallBridges::forming_distance(int i) const
+double WallBridges::forming_distance(int i, double film) const
 {
   const auto &model = wall->coefficient.bridge;
   const double r = atom->radius[i];
   if (model.forming == apf::Forming::contact) return r;
-  return r +
+  return r + film +
       apf::film_thickness(r, model.inventory() ? wall->lender->liquid(i) : model.liquid_of(r));
 }
 
@@ -99,14 +136,18 @@ void WallBridges::try_to_form(int i, int surface, double step)
   double x[3];
   wall->particles().position(i, x);
   const auto foot = wall->foot_of(surface, x);
-  const double at = forming_distance(i), volume = liquid_for(i), gap = at - atom->radius[i];
+  if (foot.distance > forming_distance(i, thickest_film)) return;
+  const double at = forming_distance(i, film_at(i, surface)), gap = at - atom->radius[i];
+  auto memory = intake(i, surface);
+  const double volume = memory.volume();
   if (foot.distance > at || volume == 0.0) return;
   if (gap >= wall->coefficient.bridge.rupture_at_rest(volume)) return;
-  apf::BridgeMemory memory;
-  memory.volume_i = volume;
   const double moved = step * wall->approach_of(i, foot).closing_speed;
   if (moved > 0.0 && at - foot.distance <= moved) memory.formed = gap;
-  if (wall->coefficient.bridge.inventory()) wall->lender->take_liquid(i, volume);
+  if (wall->coefficient.bridge.inventory()) {
+    wall->lender->take_liquid(i, memory.volume_i);
+    if (memory.volume_j > 0.0) wall->ledger.liquid[wall->zone_of(i, surface)] -= memory.volume_j;
+  }
   add(i, surface, memory, true);
 }
 
@@ -115,7 +156,8 @@ void WallBridges::detect(double step)
   joined.resize(atom->nmax, 0);
   for (int s = 0; s < static_cast<int>(wall->surfaces.size()); s++)
     for (int i = 0; i < atom->nlocal; i++)
-      if (atom->mask[i] & wall->groupbit && !wall->farther(s, atom->x[i], forming_distance(i)))
+      if (atom->mask[i] & wall->groupbit &&
+          !wall->farther(s, atom->x[i], forming_distance(i, thickest_film)))
         try_to_form(i, s, step);
 }
 
@@ -184,7 +226,7 @@ void WallBridges::remove_ruptured(bool in_sub_step)
       const double left = model.sharing == apf::Sharing::even ? 0.5 * memory.volume()
                                                               : memory.volume_j;
       wall->lender->give_liquid(i, memory.volume() - left);
-      liquid += left;
+      if (left > 0.0) wall->ledger.liquid[wall->zone_of(i, surface_of[b])] += left;
     }
     if (in_sub_step) near.push_back({i, surface_of[b], 0.0});
     joined[i] &= ~(1u << surface_of[b]);
@@ -228,6 +270,13 @@ double WallBridges::liquid_held() const
   return sum;
 }
 
+double WallBridges::liquid_from_wall() const
+{
+  double sum = 0.0;
+  for (int b = 0; b < size(); b++) sum += list.memory(b).volume_j;
+  return sum;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void WallBridges::find_fastest(apf::LookAhead &ahead)
@@ -247,7 +296,7 @@ void WallBridges::find_approaching(apf::LookAhead &ahead)
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & wall->groupbit)) continue;
     const double *x = atom->x[i];
-    const double at = forming_distance(i), beyond = at - atom->radius[i];
+    const double at = forming_distance(i, thickest_film), beyond = at - atom->radius[i];
     const double farthest = ahead.farthest() + ahead.reach * wall->speed_near(x);
     for (int s = 0; s < static_cast<int>(wall->surfaces.size()); s++) {
       const bool bridged = joined[i] >> s & 1;
@@ -286,7 +335,7 @@ void WallBridges::find_stiffest(apf::Stiffest &stiffest)
     list.find_stiffest(r, stiffest);
   });
   for (const auto &place : near) {
-    const double volume = liquid_for(place.i);
+    const double volume = intake(place.i, place.surface).volume();
     if (volume == 0.0) continue;
     const auto mode = apf::capillary_mode(constants_of(place.i, place.surface, volume));
     auto approach = wall->approach_of(place.i, wall->foot_of(place.surface, atom->x[place.i]));

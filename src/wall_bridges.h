@@ -14,21 +14,23 @@ class WallBridges : protected Pointers {
  public:
   WallBridges(class LAMMPS *lmp, class FixWallLevelset *fix);
 
+  // film THICKNESS, with iarg at the word film; iarg is left behind the last word
+  void parse_film(const char *command, int narg, char **arg, int &iarg);
   void init();
   int size() const { return list.size(); }
-  double liquid = 0.0;    // left on the wall, this rank's part                        [volume]
-
   void find_again();    // after the neighbour list was built
   void store_into(class ContactStore &) const;
   void add_counts(double *) const;
   double count(int i) const;    // of atom i
 
+  void measure_films();    // called by all ranks
   void detect(double step);
   int add_forces(const apf::ContactTimes &, std::vector<apf::DueLoad> &due);
   void remove_ruptured(bool in_sub_step);
   void share_masses();
   double energy();
-  double liquid_held() const;    // in the bridges
+  double liquid_held() const;         // in the bridges
+  double liquid_from_wall() const;    // ... the part that the wall gave
 
   // copies of particles and foot points, as the wall's own: two rows a bridge, its atom in atoms()
   const apf::Bodies &copies() const { return rows; }
@@ -65,8 +67,13 @@ class WallBridges : protected Pointers {
   };
   std::vector<Place> near, perhaps;    // may form within the particle step; if the atom is struck
 
-  double forming_distance(int i) const;    // of the centre to the wall
-  double liquid_for(int i) const;
+  double first_film = -1.0;     // of the wall; < 0: it gives no liquid                   [length]
+  std::vector<double> films;    // of each zone, at the last particle step; empty if it gives none
+  double thickest_film = 0.0;
+
+  double film_at(int i, int surface) const;
+  double forming_distance(int i, double film) const;    // of the centre to the wall
+  apf::BridgeMemory intake(int i, int surface) const;
   void try_to_form(int i, int surface, double step);
   apf::BridgeConstants constants_of(int i, int surface, double volume) const;
   void add(int i, int surface, const apf::BridgeMemory &, bool is_new);

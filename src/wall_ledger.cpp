@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 
@@ -66,6 +67,7 @@ void WallLedger::complete(const std::vector<std::string> &surface_names, const W
     zones.push_back({"rest", -1, "", nullptr});
   begun.assign(zones.size() + 1, 0.0);
   ended = begun;
+  liquid.assign(zones.size(), 0.0);
   account.resize(zones.size() + 1);
   clear_loads();
   find_only_zones();
@@ -166,6 +168,7 @@ void WallLedger::settle(const std::vector<WallTouch> &touches, ComputeAggregateC
     std::copy(load.begin(), load.end(), mine[row].begin() + FORCE);
     mine[row][CAPTURED] = begun[row];
     mine[row][DETACHED] = ended[row];
+    mine[row][LIQUID] = row < n_zones() ? liquid[row] : total_liquid();
     for (int i = 0; i < atom->nlocal; i++) {
       mine[row][ATTACHED] += touching[i] >> row & 1;
       if (!(deposited[i] >> row & 1)) continue;
@@ -182,6 +185,29 @@ void WallLedger::settle(const std::vector<WallTouch> &touches, ComputeAggregateC
     account[row][AREA] = area(row);
     for (const int column : {MASS_PER_AREA, THICKNESS})
       account[row][column] = per_area(account[row][column], row);
+  }
+}
+
+double WallLedger::total_liquid() const
+{
+  return std::accumulate(liquid.begin(), liquid.end(), 0.0);
+}
+
+std::vector<double> WallLedger::films()
+{
+  auto all = liquid;
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), n_zones(), MPI_DOUBLE, MPI_SUM, world);
+  for (int zone = 0; zone < n_zones(); zone++) all[zone] = std::max(0.0, per_area(all[zone], zone));
+  return all;
+}
+
+void WallLedger::begin_films(double thickness)
+{
+  if (has_films) return;
+  has_films = true;
+  for (int zone = 0; zone < n_zones(); zone++) {
+    const double volume = thickness * area(zone);
+    if (comm->me == 0) liquid[zone] = volume;
   }
 }
 
@@ -225,6 +251,7 @@ std::vector<double> WallLedger::state() const
 {
   std::vector<double> mine = begun, all;
   mine.insert(mine.end(), ended.begin(), ended.end());
+  mine.insert(mine.end(), liquid.begin(), liquid.end());
   all.resize(mine.size());
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, world);
   const std::string text = places();
@@ -243,8 +270,12 @@ void WallLedger::set_state(const double *state, const std::string &of_fix)
         "{}: the zones in the restart file are {}, those of the command are {}; give the same, "
         "or the fix another ID to count anew",
         of_fix, saved, places());
-  if (comm->me != 0) return;    // counts are sums over ranks
+  has_films = true;
+  if (comm->me != 0) return;    // numbers are sums over ranks
   state += length;
   std::copy(state, state + begun.size(), begun.begin());
-  std::copy(state + begun.size(), state + 2 * begun.size(), ended.begin());
+  state += begun.size();
+  std::copy(state, state + ended.size(), ended.begin());
+  state += ended.size();
+  std::copy(state, state + liquid.size(), liquid.begin());
 }

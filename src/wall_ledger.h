@@ -39,6 +39,7 @@ class WallLedger : protected Pointers {
     AREA,
     MASS_PER_AREA,
     THICKNESS,    // volume per area
+    LIQUID,       // on the zone
     N_COLUMNS
   };
 
@@ -72,12 +73,18 @@ class WallLedger : protected Pointers {
   void begin(int zone, Marks others) { count(begun, zone, others); }
   void end(int zone, Marks others) { count(ended, zone, others); }
 
+  std::vector<double> liquid;    // on each zone: this rank's part, which may be < 0     [volume]
+  double total_liquid() const;
+
   // ---- of all ranks, called by all
   // rows of all zones and of the whole wall, from the contacts of this rank
   void settle(const std::vector<WallTouch> &touches, class ComputeAggregateContact *aggregates);
   double entry(int row, int column) const { return account[row][column]; }
   double area(int row);                       // 0 if the box holds nothing of a zone
   double per_area(double amount, int row);    // ... and this too
+  // thickness of the liquid on each zone
+  std::vector<double> films();
+  void begin_films(double thickness);    // unless a restart file says what there is
 
   // counts since the fix was defined, with the names of zones and surfaces, for restart files
   std::vector<double> state() const;
@@ -105,6 +112,7 @@ class WallLedger : protected Pointers {
   std::array<double, 9> measured_box{};    // for which areas are known
   bigint measured_step = -1;
   bool regions_move = false;
+  bool has_films = false;    // begun, or read
 
   void count(std::vector<double> &counts, int zone, Marks others);
   void find_only_zones();

@@ -8,9 +8,9 @@
 //
 // R is the effective radius r_i r_j / (r_i + r_j), r_i at a wall; for two equal spheres (45) is
 // Maugis's 2 pi r sigma cos(theta) H.
-// The report prints V/(4 R^2) in (47); V^(1/3) is Lian, Thornton and Adams's
-// (doi:10.1006/jcis.1993.1452), to which it must reduce, with Pitois, Moucheront and Chateau's
-// factor of speed (doi:10.1007/s100510170084), fitted for 0.001 <= Ca <= 0.1: Ca counts up to 0.1.
+// The report prints V/(4 R^2) in (47); V^(1/3) is Lian, Thornton and Adams's (J. Colloid Interface
+// Sci. 161, 138, 1993), to which it must reduce, with Pitois, Moucheront and Chateau's factor of
+// speed (doi:10.1006/jcis.2000.7096), fitted for 0.001 <= Ca <= 0.1: Ca counts up to 0.1.
 //
 // willett: the closed fit to exact profiles by Willett, Adams, Johnson and Seville
 // (doi:10.1021/la000657y), for V / (2R)^3 < 0.1 and theta < 50 degrees, instead of (45).

@@ -371,7 +371,7 @@ TEST(RanksBridge, restart_goes_on)
 // ---- liquid that particles own
 
 // A dense suspension in shear between two walls: bridges form and rupture all the time.
-std::string sheared(const std::string &liquid, int side)
+std::string sheared(const std::string &liquid, const std::string &film, int side)
 {
   const std::string law = "jkr 1.0e5 0.25 1.0 damping alpha 0.5 sliding 0.3 bridge 0.02 5.0 0 0.05 "
                           "0.01 " +
@@ -383,7 +383,8 @@ std::string sheared(const std::string &liquid, int side)
       "\ncreate_box 1 box\ncreate_atoms 1 box\ndisplace_atoms all move 0 0 0.45 units lattice\n"
       "set group all diameter 1.0 density 1.0\nvelocity all create 30.0 4711 loop geom\n"
       "neighbor 0.4 bin\npair_style granular/adhesive\npair_coeff * * " +
-      law + "\nvariable top equal zhi\nfix w all wall/levelset plane z 0 $(v_top) " + law + "\n";
+      law + "\nvariable top equal zhi\nfix w all wall/levelset plane z 0 $(v_top) " + law + film +
+      "\n";
 }
 const std::string shearing =
     "fix nve all nve/sphere\nfix s all addforce v_fx 0 0\ntimestep 0.0005\n";
@@ -393,25 +394,35 @@ const std::string measuring = "variable fx atom 20*(z-zhi/2)\ncompute agg all ag
 
 TEST(RanksBridge, liquid_is_conserved_in_shear_and_through_a_restart)
 {
-  for (const std::string split :
-       {"inventory 0.3", "inventory 0.3 origin", "inventory 1.0 form film"}) {
+  struct {
+    std::string split;
+    double film;    // on the walls; -1: they give nothing
+  } cases[] = {{"inventory 0.3", -1.0},
+               {"inventory 0.3 origin", -1.0},
+               {"inventory 1.0 form film", -1.0},
+               {"inventory 0.3", 0.01},
+               {"inventory 1.0 origin form film", 0.002}};
+  for (const auto &[split, thickness] : cases) {
+    const std::string film = thickness < 0.0 ? "" : " film " + digits(thickness);
+    const double area = 2.0 * std::pow(5.0 * std::cbrt(1.0 / 0.7), 2);
+    const double all = 125 * 0.02 * pi / 6.0 + std::max(0.0, thickness) * area;
     const std::string file = scratch_file("liquid.restart");
     double bridges = 0.0, before = 0.0;
     {
       Simulation sim;
-      sim.run(sheared(split, 5) + measuring + shearing + "run 300\nwrite_restart " + file);
+      sim.run(sheared(split, film, 5) + measuring + shearing + "run 300\nwrite_restart " + file);
       before = sim.value("c_sum + f_w[12]");
       sim.run("compute bonds all reduce sum c_agg[5]\nrun 0 post no");
       bridges = sim.value("c_bonds");
       EXPECT_GT(bridges, 30.0);
-      EXPECT_NEAR(before / (125 * 0.02 * pi / 6.0), 1.0, 1e-12);
+      EXPECT_NEAR(before / all, 1.0, 1e-12);
     }
     Simulation sim;
     sim.run("atom_modify map array\nread_restart " + file +
             "\ncomm_modify vel yes\nneighbor 0.4 bin\n"
             "variable top equal zhi\nfix w all wall/levelset plane z 0 $(v_top) jkr 1.0e5 0.25 1.0 "
             "damping alpha 0.5 sliding 0.3 bridge 0.02 5.0 0 0.05 0.01 " +
-            split + "\n" + measuring + shearing +
+            split + film + "\n" + measuring + shearing +
             "compute bonds all reduce sum c_agg[5]\nrun 0 post no");
     EXPECT_EQ(sim.value("c_bonds"), bridges);
     sim.run("run 300");
@@ -450,6 +461,42 @@ TEST(BridgeStyle, liquid_moves_from_the_wet_to_the_dry)
     EXPECT_NEAR(of_atom(sim, 1, 6) / (even ? 0.5 * a + 0.25 * (a + b) : a), 1.0, 1e-12);
     EXPECT_NEAR(of_atom(sim, 2, 6) / (even ? 0.5 * b + 0.25 * (a + b) : b), 1.0, 1e-12);
   }
+}
+
+// A wall with a film gives the share of what lies under the particle, pi r^2 of it.
+TEST(BridgeStyle, film_of_a_wall_gives_and_takes)
+{
+  const Liquid water;
+  const double f = 0.5, thickness = 0.01, own = water.l * pi / 6.0;
+  const double given = f * thickness * pi * 0.25, taken = f * own, wall = thickness * 64.0;
+  for (const bool even : {true, false}) {
+    Simulation sim;
+    Scene scene;
+    scene.boundary = "f p p";
+    const std::string law = elastic + water.words() + "inventory 0.5 " + (even ? "even" : "origin");
+    scene.style = granular(law) + "fix w all wall/levelset plane x 0 NULL " + law + " film 0.01\n";
+    build(sim, {{0.4999, 4.0, 4.0}, {4.0, 6.0, 4.0}}, scene);
+    sim.run("timestep 1.0e-13\ncompute b all aggregate/contact\nrun 0");
+    EXPECT_NEAR(sim.value("f_w[11]") / (given + taken), 1.0, 1e-12) << "in the bridge";
+    EXPECT_NEAR(sim.value("f_w[12]") / wall, 1.0, 1e-12);
+    EXPECT_NEAR(sim.value("f_w[1][16]") / (wall - given), 1.0, 1e-12) << "on the zone";
+    EXPECT_NEAR(of_atom(sim, 1, 6) / own, 1.0, 1e-12);
+    sim.run("set atom 1 x 1.5\nrun 0 post no\nrun 1 post no");
+    const double back = even ? 0.5 * (given + taken) : given;
+    EXPECT_EQ(sim.value("f_w[10]"), 0.0);
+    EXPECT_NEAR(sim.value("f_w[12]") / (wall - given + back), 1.0, 1e-12);
+    EXPECT_NEAR(of_atom(sim, 1, 6) / (own - taken + (given + taken - back)), 1.0, 1e-12);
+    EXPECT_GT(std::fabs(taken - given), 0.1 * given) << "else a swap would not show";
+  }
+  Simulation sim;
+  Scene scene;
+  scene.boundary = "f p p";
+  build(sim, {{2.0, 4.0, 4.0}}, scene);
+  const std::string fix = "fix v all wall/levelset plane x 0 NULL " + elastic + water.words();
+  EXPECT_NE(sim.error_of(fix + "film 0.01").find("needs a law with keyword inventory"),
+            std::string::npos);
+  EXPECT_NE(sim.error_of(fix + "inventory 0.5 film -1").find("must be >= 0, got -1"),
+            std::string::npos);
 }
 
 }    // namespace
