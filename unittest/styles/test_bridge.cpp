@@ -397,20 +397,23 @@ TEST(RanksBridge, liquid_is_conserved_in_shear_and_through_a_restart)
   struct {
     std::string split;
     double film;    // on the walls; -1: they give nothing
+    int side = 5, steps = 300;
   } cases[] = {{"inventory 0.3", -1.0},
                {"inventory 0.3 origin", -1.0},
                {"inventory 1.0 form film", -1.0},
                {"inventory 0.3", 0.01},
-               {"inventory 1.0 origin form film", 0.002}};
-  for (const auto &[split, thickness] : cases) {
+               {"inventory 1.0 origin form film", 0.002},
+               {"inventory 0.3", 0.01, 22, 60}};    // 10,648 particles
+  for (const auto &[split, thickness, side, steps] : cases) {
     const std::string film = thickness < 0.0 ? "" : " film " + digits(thickness);
-    const double area = 2.0 * std::pow(5.0 * std::cbrt(1.0 / 0.7), 2);
-    const double all = 125 * 0.02 * pi / 6.0 + std::max(0.0, thickness) * area;
+    const double area = 2.0 * std::pow(side * std::cbrt(1.0 / 0.7), 2);
+    const double all = side * side * side * 0.02 * pi / 6.0 + std::max(0.0, thickness) * area;
     const std::string file = scratch_file("liquid.restart");
     double bridges = 0.0, before = 0.0;
     {
       Simulation sim;
-      sim.run(sheared(split, film, 5) + measuring + shearing + "run 300\nwrite_restart " + file);
+      sim.run(sheared(split, film, side) + measuring + shearing + "run " + std::to_string(steps) +
+              "\nwrite_restart " + file);
       before = sim.value("c_sum + f_w[12]");
       sim.run("compute bonds all reduce sum c_agg[5]\nrun 0 post no");
       bridges = sim.value("c_bonds");
@@ -425,7 +428,7 @@ TEST(RanksBridge, liquid_is_conserved_in_shear_and_through_a_restart)
             split + film + "\n" + measuring + shearing +
             "compute bonds all reduce sum c_agg[5]\nrun 0 post no");
     EXPECT_EQ(sim.value("c_bonds"), bridges);
-    sim.run("run 300");
+    sim.run("run " + std::to_string(steps));
     EXPECT_NEAR(sim.value("c_sum + f_w[12]") / before, 1.0, 1e-12);
     sim.run("compute least all reduce min c_agg[6]\nrun 0 post no");
     EXPECT_GE(sim.value("c_least"), 0.0);
