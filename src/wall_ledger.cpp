@@ -207,7 +207,7 @@ void WallLedger::begin_films(double thickness)
   has_films = true;
   for (int zone = 0; zone < n_zones(); zone++) {
     const double volume = thickness * area(zone);
-    if (comm->me == 0) liquid[zone] = volume;
+    if (comm->me == 0) liquid[zone] += volume;
   }
 }
 
@@ -254,6 +254,7 @@ std::vector<double> WallLedger::state() const
   mine.insert(mine.end(), liquid.begin(), liquid.end());
   all.resize(mine.size());
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, world);
+  all.push_back(has_films ? 1.0 : 0.0);
   const std::string text = places();
   all.insert(all.begin(), text.begin(), text.end());
   all.insert(all.begin(), static_cast<double>(text.size()));
@@ -270,9 +271,9 @@ void WallLedger::set_state(const double *state, const std::string &of_fix)
         "{}: the zones in the restart file are {}, those of the command are {}; give the same, "
         "or the fix another ID to count anew",
         of_fix, saved, places());
-  has_films = true;
-  if (comm->me != 0) return;    // numbers are sums over ranks
   state += length;
+  has_films = state[begun.size() + ended.size() + liquid.size()] != 0.0;
+  if (comm->me != 0) return;    // numbers are sums over ranks
   std::copy(state, state + begun.size(), begun.begin());
   state += begun.size();
   std::copy(state, state + ended.size(), ended.begin());

@@ -84,7 +84,7 @@ class WallLedger : protected Pointers {
   double per_area(double amount, int row);    // ... and this too
   // thickness of the liquid on each zone
   std::vector<double> films();
-  void begin_films(double thickness);    // unless a restart file says what there is
+  void begin_films(double thickness);    // unless they have begun, also before a restart
 
   // counts since the fix was defined, with the names of zones and surfaces, for restart files
   std::vector<double> state() const;
@@ -112,7 +112,7 @@ class WallLedger : protected Pointers {
   std::array<double, 9> measured_box{};    // for which areas are known
   bigint measured_step = -1;
   bool regions_move = false;
-  bool has_films = false;    // begun, or read
+  bool has_films = false;
 
   void count(std::vector<double> &counts, int zone, Marks others);
   void find_only_zones();
