@@ -502,4 +502,33 @@ TEST(BridgeStyle, film_of_a_wall_gives_and_takes)
             std::string::npos);
 }
 
+// film 0 gives back what the wall has got; a film that begins after a restart comes on top of it.
+TEST(BridgeStyle, film_begins_dry_or_after_a_restart)
+{
+  const Liquid water;
+  const std::string file = scratch_file("film.restart");
+  const std::string law = elastic + water.words() + "inventory 0.5 even";
+  const std::string wall = "fix w all wall/levelset plane x 0 NULL " + law;
+  const double own = water.l * pi / 6.0, got = 0.25 * own;
+  for (const bool film : {false, true}) {
+    Simulation sim;
+    Scene scene;
+    scene.boundary = "f p p";
+    scene.style = granular(law) + wall + (film ? " film 0\n" : "\n");
+    build(sim, {{0.4999, 4.0, 4.0}}, scene);
+    sim.run("timestep 1.0e-13\nrun 0\nset atom 1 x 1.5\nrun 0 post no\nrun 1 post no");
+    EXPECT_NEAR(sim.value("f_w[12]") / got, 1.0, 1e-12);
+    if (!film) sim.run("write_restart " + file);
+    sim.run("set atom 1 x 0.4999\nrun 0 post no");
+    const double given = film ? 0.5 * got / 64.0 * pi * 0.25 : 0.0;
+    EXPECT_NEAR(sim.value("f_w[11]") / (0.5 * (own - got) + given), 1.0, 1e-12);
+    EXPECT_NEAR(sim.value("f_w[1][16]") / (got - given), 1.0, 1e-12);
+  }
+  Simulation sim;
+  sim.run("atom_modify map array\nread_restart " + file + "\ncomm_modify vel yes\n" + wall +
+          " film 0.01\nrun 0");
+  EXPECT_NEAR(sim.value("f_w[12]") / (got + 0.64), 1.0, 1e-12);
+  std::remove(file.c_str());
+}
+
 }    // namespace
