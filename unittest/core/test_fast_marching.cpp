@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <unistd.h>
 
@@ -201,7 +202,8 @@ TEST(FastMarching, beside_scikit_fmm)
   const auto exact = on_nodes(grid, [](const std::array<double, 3> &x) {
     return size(x, 2) - 0.5;
   });
-  const std::string file = "/tmp/apf-skfmm-" + std::to_string(getpid());
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("apf-skfmm-" + std::to_string(getpid()))).string();
   {
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char *>(exact.data()), exact.size() * sizeof(double));
