@@ -422,7 +422,7 @@ Marks FixWallLevelset::zones_of(int i)
 }
 
 /* ----------------------------------------------------------------------
-   rows of the kernel: particle and foot point; the wall is at rest
+   rows of the kernel: particle and foot point
 ------------------------------------------------------------------------- */
 
 void FixWallLevelset::gather()
