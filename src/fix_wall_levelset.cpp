@@ -327,18 +327,17 @@ void FixWallLevelset::close(int i, int surface, const apf::ContactHistory &histo
 
 apf::ContactBodies FixWallLevelset::bodies_of(int i, int surface, const double *x) const
 {
-  double m = atom->rmass[i];
-  const double r = atom->radius[i], I = 0.4 * m * r * r;
+  const double r = atom->radius[i];
+  auto bodies = bodies_at(surfaces[surface], r, atom->rmass[i]);
   if (rigid) {
     int dim;
     const auto *body = static_cast<int *>(rigid->extract("body", dim));
     const auto *mass = static_cast<double *>(rigid->extract("masstotal", dim));
-    if (body && mass && body[i] >= 0) m = mass[body[i]];
+    if (body && mass && body[i] >= 0) bodies.m = mass[body[i]];
   }
   double y[3];
   motion.pose.to_frame(x, y);
-  auto bodies = apf::ContactBodies::wall(r, m, I, surfaces[surface].turning(y, r));
-  bodies.R = surfaces[surface].contact_radius(r);
+  bodies.turning = surfaces[surface].turning(y, r);
   return bodies;
 }
 
@@ -690,18 +689,15 @@ void FixWallLevelset::find_again()
 
 double FixWallLevelset::distance(const double *x) const
 {
-  double y[3];
-  motion.pose.to_frame(x, y);
-  double nearest = surfaces[0].distance(y);
-  for (const auto &surface : surfaces) nearest = std::min(nearest, surface.distance(y));
-  return nearest;
+  return distance(x, ~Marks(0));
 }
 
 double FixWallLevelset::distance(const double *x, Marks of_surfaces) const
 {
-  double nearest = std::numeric_limits<double>::max();
+  double y[3], nearest = std::numeric_limits<double>::max();
+  motion.pose.to_frame(x, y);
   for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
-    if (of_surfaces >> s & 1) nearest = std::min(nearest, foot_of(s, x).distance);
+    if (of_surfaces >> s & 1) nearest = std::min(nearest, surfaces[s].distance(y));
   return nearest;
 }
 
