@@ -1,5 +1,7 @@
 // Liquid bridges: forces, rupture, and the viscous law at steps far beyond the explicit limit.
 
+#include "criterion.h"
+
 #include "contact/bridge_list.h"
 
 #include <gtest/gtest.h>
@@ -128,6 +130,8 @@ TEST(Bridge, capillary_force_is_eq_45)
     // through contact and into it: h = h_min
     EXPECT_EQ(c.attraction(-0.01 * r), c.attraction(1.0e-3 * Reff));
     EXPECT_EQ(c.attraction(0.0), c.attraction(1.0e-3 * Reff));
+    expect_criterion("C22 law: capillary force just before contact over that in it",
+                     c.attraction(1.0e-12 * r) / c.attraction(-1.0e-12 * r), 0.999, 1.001);
   }
 }
 
@@ -140,6 +144,10 @@ TEST(Bridge, ruptures_at_lian_s_distance_times_the_factor_of_speed)
   int n = 0;
   for (const double Ca : {0.0, 0.001, 0.01, 0.1, 10.0}) {
     const double expected = 1.15 * factor[n++] * std::cbrt(V), speed = Ca * 0.072 / 1.0e-3;
+    double low = 0.9 * expected, high = 1.1 * expected;
+    for (int k = 0; k < 50; k++)
+      (c.ruptures(0.5 * (low + high), speed) ? high : low) = 0.5 * (low + high);
+    expect_criterion("C22 law: distance of rupture over eq. (47)", low / expected, 0.999, 1.001);
     EXPECT_FALSE(c.ruptures(0.9999 * expected, speed)) << Ca;
     EXPECT_TRUE(c.ruptures(1.0001 * expected, speed)) << Ca;
     EXPECT_TRUE(c.ruptures(1.0001 * expected, -speed)) << Ca;
@@ -220,7 +228,8 @@ TEST(Bridge, approach_stops_where_the_law_of_logarithms_says)
         pair.advance();
         ASSERT_GE(pair.closing(), -1e-12 * k / m) << "thrown back";
       }
-      EXPECT_NEAR(pair.gap() / stop, 1.0, 1e-3) << times << " " << logs;
+      expect_criterion("C21 law: gap at rest, steps up to 100 x explicit, over the logarithm's",
+                       pair.gap() / stop, 0.999, 1.001);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "criterion.h"
 #include "scenes.h"
+#include "temporary_file.h"
 
 namespace {
 
@@ -92,20 +93,96 @@ TEST(RanksFaults, lost_particles_are_named_by_lammps)
   }
 }
 
-// LAMMPS adds images for boxes that are smaller than the cut-off: a sphere touches its own image
+// A box of 1.5 with a cut-off of more: a sphere sees its own images, and does not touch them. In
+// one of 0.99 it touches them on all sides, with no force.
 TEST(RanksFaults, box_smaller_than_the_cutoff)
 {
+  for (const double size : {1.5, 0.99})
+    for (const auto &integrator : integrators) {
+      Scene scene;
+      const std::string range = "0 " + digits(size) + " ";
+      scene.box = range + range + range;
+      scene.processors = "1 1 *";
+      Simulation sim;
+      build(sim, {{0.5, 0.5, 0.5}}, scene);
+      EXPECT_EQ(sim.error_of("neighbor 2.0 bin\n" + integrator + "run 20"), "") << size;
+      EXPECT_LT(largest(gather(sim, "f")), 1e-9);
+      EXPECT_NEAR(gather(sim, "x")[0], 0.5, 1e-12);
+    }
+}
+
+// A flow file is read once: what happens to it later does not matter to the run
+TEST(RanksFaults, flow_file_replaced_in_mid_run)
+{
+  const auto steady = [](double speed) {
+    return [speed](VtkhdfWriter &w) {
+      w.field("velocity", 3, [speed](const double *, double, double *u) {
+        u[0] = speed;
+      });
+    };
+  };
+  TemporaryFile file("apf_replaced");
+  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, steady(2.0));
   Scene scene;
-  scene.box = "0 1.5 0 1.5 0 1.5";
-  scene.processors = "1 1 *";
   Simulation sim;
-  build(sim, {{0.5, 0.5, 0.5}}, scene);
-  const std::string error = sim.error_of("neighbor 2.0 bin\nfix nve all nve/sphere\nrun 2");
-  if (error.empty()) {
-    EXPECT_EQ(largest(gather(sim, "f")), 0.0);
-  } else {
-    EXPECT_NE(error.find("too far"), std::string::npos) << error;
-  }
+  build(sim, {{4.0, 4.0, 4.0}}, scene);
+  sim.run("fix air all flow/field file " + file.path +
+          " density 1e-3 viscosity 1e4\n"
+          "fix drag all flow/force air drag stokes\nfix nve all nve/sphere\nrun 10");
+  EXPECT_NEAR(gather(sim, "v")[0], 2.0, 1e-6);
+  MPI_Barrier(MPI_COMM_WORLD);
+  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, steady(5.0));
+  sim.run("run 10");
+  EXPECT_NEAR(gather(sim, "v")[0], 2.0, 1e-6) << "replaced";
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (TemporaryFile::rank() == 0) std::filesystem::resize_file(file.path, 100);
+  MPI_Barrier(MPI_COMM_WORLD);
+  sim.run("run 10");
+  EXPECT_NEAR(gather(sim, "v")[0], 2.0, 1e-6) << "truncated";
+  // and a truncated one is refused
+  EXPECT_NE(
+      sim.error_of("fix other all flow/field file " + file.path + " density 1e-3 viscosity 1e4")
+          .find(file.path),
+      std::string::npos);
+}
+
+TEST(RanksFaults, nan_in_a_field_is_refused)
+{
+  TemporaryFile file("apf_nan");
+  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, [](const double *x, double, double *u) {
+      u[0] = x[0] > 7.0 && x[1] > 7.0 && x[2] > 7.0 ? std::nan("") : 1.0;
+    });
+  });
+  Scene scene;
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}}, scene);
+  const std::string error =
+      sim.error_of("fix air all flow/field file " + file.path + " density 1e-3 viscosity 1\nrun 0");
+  EXPECT_NE(error.find("velocity"), std::string::npos) << error;
+  EXPECT_NE(error.find(file.path), std::string::npos) << error;
+}
+
+TEST(RanksFaults, absurd_parameters_are_named)
+{
+  Scene scene;
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}}, scene);
+  for (const std::string law :
+       {"jkr -1 0.25 1", "jkr 1e6 0.9 1", "jkr 1e6 0.25 -1", "jkr nan 0.25 1",
+        "jkr 1e6 0.25 1 sliding -0.1", "jkr 1e6 0.25 1 damping tsuji 2"})
+    EXPECT_NE(sim.error_of("pair_coeff * * " + law).find("granular/adhesive"), std::string::npos)
+        << law;
+}
+
+// A device that is full: the restart ends with an error that names the file
+TEST(Faults, restart_to_a_full_disk_is_an_error)
+{
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}});
+  sim.run("fix nve all nve/sphere\nrun 0");
+  EXPECT_NE(sim.error_of("write_restart /dev/full"), "");
 }
 
 }    // namespace

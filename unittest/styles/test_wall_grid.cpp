@@ -1,6 +1,7 @@
 // Fix wall/levelset file: the wall from distances at the nodes of a grid against planes, circles
 // and edges in closed form.
 
+#include "criterion.h"
 #include "grid_scene.h"
 
 #include <algorithm>
@@ -23,6 +24,8 @@ TEST(WallGrid, oblique_plane_is_exact)
       for (int c = 0; c < 3; c++) {
         // positions are rounded to 1e-15, which is 1e-13 of the overlap
         EXPECT_NEAR(f[c], expected * e[c], 1e-10 * std::fabs(expected));
+        expect_criterion("C16 law: force of an oblique plane, error over the force",
+                         std::fabs(f[c] / expected - e[c]), 0.0, 1e-12);
         EXPECT_NEAR(scene.sim.value("f_wall[" + std::to_string(c + 1) + "]"), -f[c], 1e-12);
       }
     }
@@ -45,6 +48,12 @@ TEST(WallGrid, circle_has_the_force_of_the_cylinder)
     EXPECT_NEAR(f[0], 0.8 * side * expected, 1e-3 * std::fabs(expected));
     EXPECT_NEAR(f[1], 0.6 * side * expected, 1e-3 * std::fabs(expected));
     EXPECT_GT(std::fabs(flat - expected), 5e-3 * std::fabs(expected));
+    const auto curve = material.curve(0.5 / std::sqrt(1.0 + side * 0.25));
+    const double slope = (curve.force(0.012 + 1e-7) - curve.force(0.012 - 1e-7)) / 2e-7;
+    expect_criterion("C16 law: error of the distance to a circle, of delta_C",
+                     std::fabs((side * (0.8 * f[0] + 0.6 * f[1]) - expected) / slope) /
+                         curve.delta_C(),
+                     0.0, 0.05);
   }
 }
 
@@ -69,6 +78,7 @@ TEST(WallGrid, rebound_does_not_depend_on_the_point_of_impact)
   for (int n = 0; n < 12; n++) speeds.push_back(impact(grid.sim, 0.05 + 0.137 * n));
   const auto [low, high] = std::minmax_element(speeds.begin(), speeds.end());
   EXPECT_LT((*high - *low) / v, 0.002);
+  expect_criterion("C16 verlet: scatter of e around a circle", (*high - *low) / v, 0.0, 0.02);
   const auto curve = material.curve(0.5 / std::sqrt(1.25));
   const double lost = 2.0 * 0.935503 * curve.F_C() * curve.delta_C() / mass;
   EXPECT_NEAR(speeds[0] / v, std::sqrt(1.0 - lost / (v * v)), 0.005);
@@ -92,6 +102,8 @@ TEST(WallGrid, no_ripples_along_a_curved_wall)
     most = std::max(most, normal);
   }
   EXPECT_LT(worst, 1e-5 * curve.F_C());
+  expect_criterion("C17 law: force along a circle, of a drag of F_C/100",
+                   worst / (0.01 * curve.F_C()), 0.0, 0.01);
   EXPECT_GT(worst, 0.0);
   EXPECT_LT((most - least) / std::fabs(least), 1e-3);
   EXPECT_NEAR(most, curve.force(curve.delta_eq() - 0.5 * curve.delta_C()), 1e-2 * curve.F_C());
@@ -140,7 +152,8 @@ TEST(WallGrid, no_work_on_a_closed_way_around_an_edge)
     last = f;
   }
   EXPECT_GT(largest_part, 0.01 * curve.F_C() * curve.delta_C());    // up and down between the legs
-  EXPECT_LT(std::fabs(work), 1e-3 * curve.F_C() * curve.delta_C());
+  expect_criterion("C16 law: work of a closed way around an edge, of F_C delta_C",
+                   std::fabs(work) / (curve.F_C() * curve.delta_C()), 0.0, 1e-3);
 }
 
 // a plate of thickness 0.02, thinner than the spacing, that ends at x = 4
@@ -257,8 +270,15 @@ TEST(WallGrid, corner_holds_two_contacts)
     EXPECT_NEAR(scene.sim.value("f_wall[1]") / (-300.0 * mass), 1.0, 1e-6);
     EXPECT_NEAR(scene.sim.value("f_wall[2]") / (-400.0 * mass), 1.0, 1e-6);
     const auto x = gather(scene.sim, "x");
-    EXPECT_NEAR(material.wall().force(1.5 - x[0]), 300.0 * mass, 1e-6 * 300.0 * mass);
-    EXPECT_NEAR(material.wall().force(1.5 - x[1]), 400.0 * mass, 1e-6 * 400.0 * mass);
+    for (const int c : {0, 1}) {
+      const double load = (300.0 + 100.0 * c) * mass;
+      EXPECT_NEAR(material.wall().force(1.5 - x[c]), load, 1e-6 * load);
+      double low = 0.0, high = 0.1;    // where a plane carries it
+      for (int n = 0; n < 60; n++)
+        (material.wall().force(0.5 * (low + high)) < load ? low : high) = 0.5 * (low + high);
+      expect_criterion("C16 verlet: place at rest in a concave corner, error over d",
+                       std::fabs(x[c] - (1.5 - low)), 0.0, 0.01);
+    }
   }
 }
 
@@ -336,8 +356,10 @@ TEST(WallGrid, integrators_agree)
     states.push_back(state_of(scene.sim));
   }
   EXPECT_GT(std::hypot(states[0].v[0], states[0].v[1]), 0.1);
+  const std::string names[] = {"verlet", "respa", "mts"};
   for (int n : {1, 2}) {
-    EXPECT_LT(difference(states[n].x, states[0].x), 1e-4) << n;
+    expect_criterion("C16 " + names[n] + ": place along a circle less that of verlet, of it",
+                     difference(states[n].x, states[0].x), 0.0, 1e-4);
     EXPECT_LT(difference(states[n].v, states[0].v), 2e-2) << n;
   }
 }
@@ -394,7 +416,8 @@ TEST(WallGrid, slides_and_rolls_as_on_a_cylinder)
       EXPECT_NEAR(slip, 0.0, 0.01) << c.name;
     EXPECT_GT(way, 6.0 * c.spacing) << c.name;
     EXPECT_LT(difference(states[0].x, states[1].x), 1e-4) << c.name;
-    EXPECT_LT(difference(states[0].v, states[1].v), 1e-3) << c.name;
+    expect_criterion("C17 mts: speed along many cells less that on a cylinder, of it",
+                     difference(states[0].v, states[1].v), 0.0, 1e-3);
     EXPECT_LT(difference(states[0].omega, states[1].omega), 1e-3) << c.name;
   }
 }

@@ -1,0 +1,411 @@
+// Cases C9, C11, C13-C15, C20, C21, C23, C25 and C28 of the list of hard cases under velocity
+// Verlet, stock r-RESPA and fix nve/sphere/mts.
+
+#include "integrators.h"
+
+#include <algorithm>
+#include <array>
+
+namespace {
+
+const Material material;
+const double mass = pi / 6.0, inertia = 0.1 * mass;    // of a sphere of diameter and density 1
+
+std::string pair_of(const std::string &law)
+{
+  return "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
+}
+
+// C9: a held neck at -0.9 delta_C, lists built at every step; a third sphere flies
+TEST(Cases, neck_beyond_contact)
+{
+  const auto curve = material.pair();
+  const double stretch = 0.9 * curve.delta_C();
+  for (const auto &integrator : integrators) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}, {4.99, 4.0, 4.0}, {1.0, 1.0, 1.0}});
+    set_motion(sim, 3, {30.0, 10.0, 5.0}, {0.0, 0.0, 0.0});
+    std::string commands = integrator.commands(dt);
+    commands.replace(commands.find(" all "), 5, " flies ");
+    sim.run("group flies id 3\nrun 0\nset atom 2 x " + digits(5.0 + stretch) +
+            "\nneighbor 0.01 bin\nneigh_modify delay 0 every 1 check no\natom_modify sort 5 1.0\n" +
+            commands + "run 0");
+    const double f = gather(sim, "f")[0];
+    EXPECT_NEAR(f, -curve.force(-stretch), 1e-6 * curve.F_C());
+    sim.run(integrator.run(10000));
+    expect_criterion(integrator.of("C9 *: change of the force of a neck in 1e4 steps"),
+                     std::fabs(gather(sim, "f")[0] / f - 1.0), 0.0, 1e-12);
+  }
+}
+
+// C11: a doublet spins for ten turns at its own distance
+TEST(Cases, doublet_spins)
+{
+  const auto curve = material.pair();
+  const double W = 20.0, ramp = 2.0 * pi / W;    // of a turn
+  double tension = 0.0, distance = 1.0 - curve.delta_eq();
+  for (int n = 0; n < 50; n++) {    // m W^2 d/2 stretches it
+    tension = mass * W * W * 0.5 * distance;
+    double low = 0.0, high = curve.delta_eq();
+    for (int k = 0; k < 100; k++) {
+      const double half = 0.5 * (low + high);
+      (curve.force(half) < -tension ? low : high) = half;
+    }
+    distance = 1.0 - low;
+  }
+  const int steps = static_cast<int>(ramp / dt);
+  for (const auto &integrator : integrators)
+    for (const double boost : {0.0, 1024.0}) {
+      Simulation sim;
+      build(sim, {{3.5, 4.0, 4.0}, {3.5 + distance, 4.0, 4.0}});
+      set_motion(sim, 1, {boost, -0.5 * W * distance, 0.0}, {0.0, 0.0, W});
+      set_motion(sim, 2, {boost, 0.5 * W * distance, 0.0}, {0.0, 0.0, W});
+      sim.run("compute spin all erotate/sphere\ncompute parts all pair granular/adhesive\n"
+              "thermo_style custom step pe ke c_spin c_parts[2] c_parts[3]\n"
+              "thermo_modify norm no\nneighbor 2.0 bin\nneigh_modify delay 0 every 1\n" +
+              integrator.commands(dt) + "run 0");
+      auto measured = [&] {
+        const auto v = gather(sim, "v"), w = gather(sim, "omega"), x = gather(sim, "x");
+        double d[3];
+        for (int c = 0; c < 3; c++) {
+          d[c] = x[3 + c] - x[c];
+          d[c] -= 8.0 * std::round(d[c] / 8.0);
+        }
+        const double L =
+            0.5 * mass * (d[0] * (v[4] - v[1]) - d[1] * (v[3] - v[0])) + inertia * (w[2] + w[5]);
+        double E = sim.value("pe+c_spin");
+        for (int c = 0; c < 6; c++) {
+          const double u = v[c] - (c % 3 == 0 ? boost : 0.0);
+          E += 0.5 * mass * u * u;
+        }
+        return std::array<double, 2>{L, E};
+      };
+      const auto before = measured();
+      sim.run(integrator.run(10 * steps));
+      const auto after = measured();
+      const double kinetic = 0.5 * before[0] * W;
+      const std::string at = boost > 0.0 ? ", boosted" : "";
+      expect_criterion(integrator.of("C11 *: change of L in 10 turns" + at),
+                       std::fabs(after[0] / before[0] - 1.0), 0.0, 1e-10);
+      expect_criterion(integrator.of("C11 *: drift of energy in 10 turns, of the kinetic" + at),
+                       (after[1] - before[1]) / kinetic, -1e-5, 1e-5);
+      expect_criterion(integrator.of("C11 *: energy of springs, of the kinetic" + at),
+                       sim.value("c_parts[2]+c_parts[3]") / kinetic, 0.0, 1e-6);
+    }
+}
+
+// C13, C14: a sphere that adheres to a wall under a force along it, at a share of the rolling limit
+struct Held {
+  double late, spin, alpha, offset;    // late: way after it came to rest, of r
+};
+Held held(const Integrator &integrator, double share, int steps)
+{
+  const JkrCurve curve = material.wall();
+  const double arm = 0.5 - curve.delta_eq(), theta = 0.02;
+  // M = 4 F_C xi up to xi = theta R
+  const double limit = curve.rolling(curve.delta_eq()) * theta * 0.5 / arm;
+  const std::string law = jkr + "damping tsuji 0.2 sliding 0.3 rolling 0.02 0.5 ";
+  Scene scene;
+  scene.boundary = "p p f";
+  scene.style = pair_of(law) + "fix wall all wall/levelset plane z 0 NULL" + law + "\n";
+  Simulation sim;
+  build(sim, {{4.0, 4.0, arm}}, scene);
+  sim.run("variable F equal " + digits(share * limit) +
+          "*ramp(0,1)\nfix pull all addforce v_F 0 0\n" + integrator.commands(dt) +
+          integrator.run(20000) + "unfix pull\nfix pull all addforce " + digits(share * limit) +
+          " 0 0\n" + integrator.run(10000));
+  const double x = gather(sim, "x")[0], w = gather(sim, "omega")[1];
+  sim.run(integrator.run(steps));
+  const double time = (steps + integrator.inner - 1) / integrator.inner * integrator.inner * dt;
+  Held result{};
+  result.late = std::fabs(gather(sim, "x")[0] - x) / 0.5;
+  result.spin = std::fabs(gather(sim, "omega")[1]);
+  result.alpha =
+      (gather(sim, "omega")[1] - w) / time / (0.01 * limit * arm / (inertia + mass * arm * arm));
+  // the way that it rolled is M / (4 F_C (a/a0)^1.5), and the slide of the spring below it
+  const double slide = share * limit / (8.0 * material.G_eff() * curve.a(curve.delta_eq()));
+  // of an angle that stretches the rolling spring by itself times r
+  result.offset =
+      (x - 4.0 - slide) / (share * limit * arm * arm / 0.5 / curve.rolling(curve.delta_eq()));
+  return result;
+}
+
+TEST(Cases, rest_on_a_wall)
+{
+  for (const auto &integrator : integrators) {
+    const auto half = held(integrator, 0.5, count(100000, 1000000));
+    expect_criterion(integrator.of("C13 *: creep at half the rolling limit, of r"), half.late, 0.0,
+                     1e-6);
+    expect_criterion(integrator.of("C13 *: spin left, of U/d"), half.spin, 0.0, 1e-9);
+    expect_criterion(integrator.of("C13 *: offset over M/(4 F_C)"), half.offset, 0.98, 1.02);
+  }
+}
+
+TEST(Cases, rolling_threshold)
+{
+  for (const auto &integrator : integrators) {
+    expect_criterion(integrator.of("C14 *: creep at 99 % of the rolling limit, of r"),
+                     held(integrator, 0.99, 10000).late, 0.0, 1e-6);
+    expect_criterion(integrator.of("C14 *: acceleration at 101 % over that of the excess"),
+                     held(integrator, 1.01, 10000).alpha, 0.99, 1.01);
+  }
+}
+
+// C15: a sheet of 100 without end, each sphere turning against its four neighbours: all contacts
+// roll and none slides. I dOmega/dt = -4 (k xi + eta dxi/dt), dxi/dt = 2 R Omega, k = 4 F_C.
+TEST(Cases, rolling_resonance_of_a_sheet)
+{
+  const auto curve = material.pair();
+  const double d = 1.0 - curve.delta_eq(), k = 4.0 * curve.F_C();
+  const double rate = std::sqrt(8.0 * k * curve.R / inertia);
+  for (const double zeta : {0.0, 0.1})
+    for (const auto &integrator : integrators) {
+      Scene scene;
+      scene.box = "0 " + digits(10.0 * d) + " 0 " + digits(10.0 * d) + " 0 8";
+      scene.style = pair_of(jkr + "sliding 0.3 rolling 0.1 " + digits(zeta));
+      Simulation sim;
+      build(sim, {}, scene);
+      std::vector<double> x, v(300, 0.0);
+      for (int n = 0; n < 100; n++)
+        x.insert(x.end(), {d * (n % 10 + 0.5), d * (n / 10 + 0.5), 4.0});
+      add_spheres(sim, x, v);
+      // a third of the rolling limit
+      const double spin = 0.03 * 0.5 * rate;
+      const double share = zeta > 0.0 ? 2.0 * zeta : 0.0;    // four dashpots, four springs
+      const double period = 2.0 * pi / (rate * std::sqrt(1.0 - share * share));
+      const int steps = static_cast<int>(std::lround(period / dt));
+      const double step = period / (steps / 10 * 10);
+      sim.run("variable w atom " + digits(spin) +
+              "*(1-2*(((id-1)%10+floor((id-1)/10))%2))\nset group all omega 0 0 v_w\n"
+              "compute spin all erotate/sphere\ncompute parts all pair granular/adhesive\n"
+              "thermo_style custom step c_spin c_parts[3] pe ke\nthermo_modify norm no\n"
+              "neighbor 0.1 bin\n" +
+              integrator.commands(step) + "run 0");
+      const double start = sim.value("c_spin");
+      EXPECT_NEAR(start, 50.0 * inertia * spin * spin, 1e-9 * start);
+      if (zeta == 0.0) {
+        double most = 0.0;
+        for (int n = 0; n < 200; n++) {
+          sim.run(integrator.run(count(steps / 3, 10 * steps / 3)));
+          most = std::max(most, sim.value("c_parts[3]") / start);
+        }
+        expect_criterion(integrator.of("C15 *: largest energy of rolling, of that at the start"),
+                         most, 0.9, 1.01);
+      } else {
+        sim.run(integrator.run(2 * (steps / 10 * 10)));
+        const double logs = std::log(gather(sim, "omega")[2] / spin);
+        expect_criterion(integrator.of("C15 *: decay with zeta = 0.1 over the predicted"),
+                         logs / (-share * rate * 2.0 * period), 0.95, 1.05);
+      }
+    }
+}
+
+// ... and a block of 5 x 5 x 4 in shear: energy of rolling stays bounded
+TEST(Cases, block_in_shear)
+{
+  const auto curve = material.pair();
+  const double d = 1.0 - curve.delta_eq();
+  for (const auto &integrator : integrators) {
+    Scene scene;
+    scene.box = "0 16 0 16 0 16";
+    scene.style = pair_of(jkr + "sliding 0.3 rolling 0.1 ");
+    Simulation sim;
+    build(sim, {}, scene);
+    std::vector<double> x, v(300, 0.0);
+    for (int n = 0; n < 100; n++)
+      x.insert(x.end(), {6.0 + d * (n % 5), 6.0 + d * (n / 5 % 5), 6.0 + d * (n / 25)});
+    add_spheres(sim, x, v);
+    sim.run("compute parts all pair granular/adhesive\ncompute agg all aggregate/contact\n"
+            "thermo_style custom step c_parts[3] c_agg[2] pe ke\nthermo_modify norm no\n"
+            "fix air all flow/field shear x y 20 8 density 1e-3 viscosity 0.02\n"
+            "fix drag all flow/force air drag stokes torque yes\nneighbor 0.3 bin\n" +
+            integrator.commands(dt));
+    double first = 0.0, second = 0.0;
+    const int times = count(100, 1000);
+    for (int n = 0; n < times; n++) {
+      sim.run(integrator.run(100));
+      auto &most = 2 * n < times ? first : second;
+      most = std::max(most, sim.value("c_parts[3]"));
+    }
+    EXPECT_EQ(sim.value("c_agg[2]"), 1.0) << "one aggregate";
+    EXPECT_GT(first, 0.0);
+    expect_criterion(integrator.of("C15 *: energy of rolling in shear, second half over first"),
+                     second / first, 0.0, 1.5);
+  }
+}
+
+// C20: twelve contacts on a particle at the report's step, f3 = 0.1, and damping
+TEST(Cases, dense_aggregate)
+{
+  for (const double phi : {1.5, 15.0, 50.0, 150.0})
+    for (const auto &integrator : integrators) {
+      const JkrCurve curve{0.25, 1e4, 0.5 * phi};
+      const double h = (1.0 - curve.delta_eq()) / std::sqrt(2.0);
+      Scene scene;
+      scene.box = "0 10 0 10 0 10";
+      scene.style = pair_of(" jkr " + digits(2e4 * (1.0 - 0.09)) + " 0.3 " + digits(curve.gamma) +
+                            " damping alpha 1.018 sliding 0.3");
+      std::vector<Sphere> cluster = {{5.0, 5.0, 5.0}};
+      for (const double a : {-h, h})
+        for (const double b : {-h, h})
+          cluster.insert(
+              cluster.end(),
+              {{5.0 + a, 5.0 + b, 5.0}, {5.0 + a, 5.0, 5.0 + b}, {5.0, 5.0 + a, 5.0 + b}});
+      Simulation sim;
+      build(sim, cluster, scene);
+      sim.run(
+          "compute spin all erotate/sphere\nvariable E equal pe+ke+c_spin\n"
+          "thermo_style custom step pe ke c_spin\nthermo_modify norm no\n"
+          "variable turn atom 0.4*(id%3-1)\nset group all omega 0 0 v_turn\nneighbor 1.0 bin\n" +
+          integrator.commands(2.5e-3) + "run 0");
+      const double start = sim.value("ke+c_spin");
+      double last = sim.value("v_E"), most = -1.0;
+      for (int n = 0; n < 50; n++) {
+        sim.run(integrator.run(100));
+        most = std::max(most, (sim.value("v_E") - last) / start);
+        last = sim.value("v_E");
+      }
+      expect_criterion(integrator.of("C20 *: largest gain of energy in 100 steps"), most, -1.0,
+                       1e-6);
+    }
+}
+
+// C21: viscosity stops spheres at a gap, from the law of logarithms with the bridge's finite volume
+TEST(Cases, viscous_bridge)
+{
+  const double l = 0.06, mu = 2.0, R = 0.25, m_eff = mass / 2.0, V = l * mass,
+               k = 6.0 * pi * mu * R * R;
+  // the films touch at the start
+  const double begin = 0.9 * (std::cbrt(1.0 + l) - 1.0), least = 1e-3 * R, stop = 5.0 * least;
+  double momentum = 0.0;
+  const int n = 20000;
+  for (int q = 0; q < n; q++) {
+    const double h = stop * std::pow(begin / stop, (q + 0.5) / n);
+    const double H = 1.0 - 1.0 / std::sqrt(1.0 + V / (pi * R * h * h));
+    momentum += k * H * H * std::log(begin / stop) / n;
+  }
+  const double v0 = momentum / m_eff, explicit_limit = 2.0 * least * m_eff / k;
+  for (const double times : {1.0, 10.0, 100.0})
+    for (const auto &integrator : integrators) {
+      const double step = times * explicit_limit, gap = begin;
+      Scene scene;
+      scene.style = pair_of(" jkr 1.0e7 0.25 0.0 form film bridge " + digits(l) + " 1e-9 0 " +
+                            digits(mu) + " 1e-3");
+      Simulation sim;
+      build(sim, {{4.0 - 0.5 * (1.0 + gap), 4.0, 4.0}, {4.0 + 0.5 * (1.0 + gap), 4.0, 4.0}}, scene);
+      set_motion(sim, 1, {0.5 * v0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      set_motion(sim, 2, {-0.5 * v0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      sim.run("neighbor 1.0 bin\n" + integrator.commands(step) + integrator.run(4000));
+      expect_criterion(
+          integrator.of("C21 *: gap at rest, steps up to 100 x explicit, over the law"),
+          (sim.value("x[2]-x[1]") - 1.0) / stop, 0.95, 1.05);
+    }
+}
+
+// C23: a force and stiff drag, step over tau = 10
+TEST(Cases, stiff_drag)
+{
+  for (const auto &integrator : integrators) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}});
+    const double mu = 1e4, tau = 1.0 / (18.0 * mu);
+    sim.run("fix pull all addforce 0 0 1e3\nfix air all flow/field uniform 1 0 0 density 1e-3 "
+            "viscosity 1e4\nfix drag all flow/force air drag stokes\n" +
+            integrator.commands(10.0 * tau / integrator.inner) + "run 100");
+    const auto v = gather(sim, "v");
+    expect_criterion(integrator.of("C23 *: terminal velocity at a step of 10 tau, less 1"),
+                     v[2] / (1e3 / (3.0 * pi * mu)) - 1.0, -1e-6, 1e-6);
+    expect_criterion(integrator.of("C23 *: velocity along the fluid, less 1"), v[0] - 1.0, -1e-6,
+                     1e-6);
+  }
+}
+
+// C25: nothing that enters sets energy free, and what enters is the flux
+TEST(Cases, inlet)
+{
+  const int steps = count(2000, 10000);
+  for (const auto &integrator : integrators) {
+    Simulation sim;
+    Scene scene;
+    scene.box = "0 20 0 10 0 10";
+    scene.boundary = "f p p";
+    scene.style = pair_of(" jkr 1e4 0.3 0.1 damping tsuji 0.5 sliding 0.3");
+    build(sim, {}, scene);
+    sim.run("neighbor 0.3 bin\nfix air all flow/field uniform 1 0 0 density 1 viscosity 1\n"
+            "fix in all inlet/flow x 0 air concentration 0.01 diameter 0.5 density 2 type 1 seed "
+            "4711 outlet x 15\nfix drag all flow/force air drag stokes torque yes\n"
+            "compute ke all ke\nthermo_style custom step c_ke\nthermo 100000\n" +
+            integrator.commands(0.05 / integrator.inner) + "run " + std::to_string(steps));
+    const double size = pi / 6.0 * 0.125, due = 0.01 * 100.0 * 0.05 * steps;
+    expect_criterion(integrator.of("C25 *: volume that entered over the flux"),
+                     sim.value("f_in[1]") * size / due, 0.999, 1.001);
+    expect_criterion(integrator.of("C25 *: kinetic energy over that of the fluid, less 1"),
+                     sim.value("c_ke") / (0.5 * 2.0 * size * sim.value("atoms")) - 1.0, -1e-6,
+                     1e-6);
+  }
+}
+
+// C28: pairs that meet within a long flight; at the same collision step sub-steps give the same
+// impacts as the single rate in less time
+TEST(Cases, speed_against_error)
+{
+  const JkrCurve curve = material.pair();
+  const Scale scale(curve, mass / 2.0);
+  struct Outcome {
+    std::vector<double> e;
+    double time;
+  };
+  auto outcome = [&](const Integrator &integrator, double step) {
+    std::vector<double> x, v;
+    const int pairs = 1000;
+    for (int n = 0; n < pairs; n++)
+      for (const double sign : {-1.0, 1.0}) {
+        const double V = scale.V_s * (1.2 + 2.8 * (n % 50) / 50.0);
+        const double gap = V * scale.T * (5.0 + 0.3 * n);    // one after another
+        x.insert(x.end(),
+                 {8.0 + sign * 0.5 * (1.0 + gap), 1.5 + 3.0 * (n % 32), 1.5 + 3.0 * (n / 32)});
+        v.insert(v.end(), {-sign * 0.5 * V, 0.0, 0.0});
+      }
+    Scene scene;
+    scene.box = "-30 46 0 96 0 96";
+    scene.style = pair_of(jkr);
+    Simulation sim;
+    build(sim, {}, scene);
+    add_spheres(sim, x, v);
+    sim.run("neighbor 0.5 bin\n" + integrator.commands(step) +
+            integrator.run(static_cast<int>(350.0 * scale.T / step)));
+    Outcome result{{}, lammps_get_thermo(sim.lammps(), "cpu")};
+    const auto after = gather(sim, "v");
+    for (int n = 0; n < pairs; n++)
+      result.e.push_back((after[6 * n + 3] - after[6 * n]) / (v[6 * n] - v[6 * n + 3]));
+    return result;
+  };
+  const double step = 0.1 * scale.T;
+  const Integrator long_steps{"mts", 40}, respa{"respa", 40};
+  const auto single = outcome(integrators[0], step), sub = outcome(long_steps, step),
+             levels = outcome(respa, step);
+  auto error = [&](const Outcome &o) {
+    double sum = 0.0;
+    for (size_t n = 0; n < o.e.size(); n++) {
+      const double V = 1.2 + 2.8 * (n % 50) / 50.0;
+      sum += std::fabs(o.e[n] - std::sqrt(1.0 - 1.0 / (V * V))) / o.e.size();
+    }
+    return sum;
+  };
+  auto mean = [](const Outcome &o) {
+    double sum = 0.0;
+    for (const double e : o.e) sum += e / o.e.size();
+    return sum;
+  };
+  expect_criterion("C28 verlet: mean error of e", error(single), 0.0, 0.01);
+  expect_criterion("C28 respa: mean e over that of the single rate", mean(levels) / mean(single),
+                   0.99, 1.01);
+  expect_criterion("C28 mts: mean e over that of the single rate", mean(sub) / mean(single), 0.99,
+                   1.01);
+  expect_criterion("C28 mts: mean error of e", error(sub), 0.0, 0.01);
+  // times of a busy machine: the least that is asked for is far below what a quiet one gives
+  expect_criterion("C28 mts: time of the single rate over that of sub-steps",
+                   single.time / sub.time, 1.0, 40.0);
+}
+
+}    // namespace
