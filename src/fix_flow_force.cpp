@@ -165,13 +165,16 @@ void FixFlowForce::post_force(int vflag)
 {
   v_init(vflag);
   if (atom->nmax > nmax) grow_output();
-  if (sub_stepper) relaxations.assign(atom->nlocal, Relaxation());
+  if (sub_stepper) relaxations.resize(atom->nlocal);
   model.step = update->ntimestep;
   model.step_length = update->dt;
   std::fill_n(parts[0], n_sums * apf::sum_parts, 0.0);
   summed = false;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & groupbit)) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->mask[i] & groupbit) continue;
+    std::fill_n(array_atom[i], size_peratom_cols, 0.0);
+    if (sub_stepper) relaxations[i] = Relaxation();
+  }
 
   if (feedback) {
     if (domain->box_change) feedback->set_up();

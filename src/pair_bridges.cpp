@@ -119,6 +119,10 @@ int PairBridges::add_forces(apf::Bodies &bodies, const apf::ContactTimes &times,
                             apf::BridgeParts *to)
 {
   int ended = 0;
+  for (int b = 0; b < list.size(); b++) {
+    bodies.touch(list.i[b]);
+    bodies.touch(list.j[b]);
+  }
   bodies.with_rows([&](auto *rows) {
     ended = list.add_forces(
         rows, times,

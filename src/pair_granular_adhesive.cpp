@@ -88,6 +88,8 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   // contacts open with first touch and end with the neck
   detect(true, times.advance);
   if (store->count_contacts()) share_masses();
+  for (const auto *touched : {&contacts.i, &contacts.j})
+    for (const int i : *touched) bodies.touch(i);
 
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
@@ -246,6 +248,8 @@ void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
   const int added = contacts.add(i, j, k, number_of_kind(i, j), history);
   contacts.set_crowding(added, bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0));
   candidates.closed[k] = 1;
+  store->bodies().touch(i);
+  store->bodies().touch(j);
   store->count_anew();
 }
 

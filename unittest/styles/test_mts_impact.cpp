@@ -207,7 +207,7 @@ TEST(MtsImpact, stiff_spheres_rebound_as_soft_ones)
 {
   const JkrCurve curve{0.25, stiff_E, 0.75};
   const double V_s = sticking_speed(curve);
-  for (const std::string &damping : {"", "damping alpha 0.3 "}) {
+  for (const std::string damping : {"", "damping alpha 0.3 "}) {
     std::vector<Impact> impacts;
     for (const double V : {0.98, 1.1, 1.5, 3.0}) impacts.push_back({V * V_s, V * V_s * 0.3});
     auto soft = stiff(damping + "scale_stiffness " + digits(soft_share));
@@ -217,8 +217,9 @@ TEST(MtsImpact, stiff_spheres_rebound_as_soft_ones)
       const double V = impacts[n].speed / V_s;
       expect_criterion("C6 mts: e of softened less e of stiff spheres", e[n] - hard[n], -0.01,
                        0.01);
-      if (damping.empty())
+      if (damping.empty()) {
         EXPECT_NEAR(hard[n], V > 1.0 ? std::sqrt(1.0 - 1.0 / (V * V)) : 0.0, 0.01) << V;
+      }
     }
   }
 }
