@@ -173,6 +173,24 @@ TEST(FlowForces, columns_are_the_forces_that_the_script_names)
   EXPECT_NE(sim.value("f_drag[19]"), 0.0);
 }
 
+TEST(FlowForces, without_a_per_atom_array_the_motion_is_the_same)
+{
+  double v[2], total[2];
+  for (const bool with : {false, true}) {
+    Simulation sim;
+    sim.run(sphere() + "velocity all set 1 0 0\nfix air all flow/field uniform 0 0.5 0" +
+            properties(0.385, 1.0 / 18.0) +
+            "fix drag all flow/force air drag stokes torque yes peratom " +
+            (with ? "yes\n" : "no\n") + timestep(0.01) + "run 50\n");
+    v[with] = sim.value("vx[1]");
+    total[with] = sim.value("f_drag[22]");
+    const auto error = sim.error_of("compute sum all reduce sum f_drag[1]");
+    EXPECT_EQ(error.empty(), with) << error;
+  }
+  EXPECT_EQ(v[0], v[1]);
+  EXPECT_EQ(total[0], total[1]);
+}
+
 TEST(FlowForces, groups_of_scattered_atoms_get_what_all_together_get)
 {
   // every second atom, so that a block is no rows one after another
