@@ -31,13 +31,15 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
   size = apf::GridDistance::size(lattice);
   allocate(size * pieces.size());
   reaches.assign(pieces.size(), -std::numeric_limits<double>::infinity());
+  jumps.assign(pieces.size(), {});
   for (size_t n = 0; n < pieces.size(); n++)
     attempt([&] {
       const auto nodes = nodes_of(file->read(pieces[n], 1, 0, layers()), 1);
-      apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
+      jumps[n] = apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
       reaches[n] = *std::max_element(nodes.begin(), nodes.end());
     });
   MPI_Allreduce(MPI_IN_PLACE, reaches.data(), reaches.size(), MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, jumps.data(), 3 * jumps.size(), MPI_DOUBLE, MPI_MAX, world);
   file.reset();
   position = Error::NOLASTLINE;
 }
@@ -81,8 +83,8 @@ std::vector<apf::Surface> WallGrid::surfaces() const
 {
   std::vector<apf::Surface> all;
   for (size_t n = 0; n < pieces.size(); n++)
-    all.push_back(
-        apf::Surface::gridded(apf::GridDistance(lattice, numbers.data() + n * size), reaches[n]));
+    all.push_back(apf::Surface::gridded(
+        apf::GridDistance(lattice, numbers.data() + n * size, jumps[n]), reaches[n]));
   return all;
 }
 
@@ -172,10 +174,8 @@ std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
   std::vector<double> values(lattice.nodes());
   const double spacing = *std::min_element(lattice.spacing, lattice.spacing + lattice.dims);
   for_each_node(lattice, [&](int i, int j, int k, std::size_t node) {
-    const int index[3] = {i, j, k};
-    double x[3] = {};
-    for (int axis = 0; axis < lattice.dims; axis++)
-      x[axis] = lattice.origin[axis] + index[axis] * lattice.spacing[axis];
+    double x[3];
+    lattice.position(i, j, k, x);
     const double distance = field.grid.distance(x);
     // a wall along the border of the grid has no nodes behind it: those on it stand for them
     const double least = on_wall * spacing;

@@ -34,8 +34,9 @@ class WallGrid : public GridFile {
 
  private:
   std::vector<std::string> pieces;
-  std::size_t size = 0;           // numbers of a piece
-  std::vector<double> reaches;    // largest number of each
+  std::size_t size = 0;                             // numbers of a piece
+  std::vector<double> reaches;                      // largest number of each
+  std::vector<apf::GridDistance::PerAxis> jumps;    // of each, see GridDistance
 
   void choose(const std::vector<std::string> &wanted, int most);
 };
