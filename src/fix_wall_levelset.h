@@ -107,8 +107,8 @@ class FixWallLevelset : public FixContacts {
   bool rebuild = true;
   class FixContactHistory *lender = nullptr;    // has the particles' rows already: pair's fix
   class Fix *rigid = nullptr;
-  double captured = 0.0, detached = 0.0;    // contacts begun and ended, of this rank
-  WallLedger ledger{lmp, surfaces};         // force and torque on zones of the wall
+  double captured = 0.0, detached = 0.0;            // contacts begun and ended, of this rank
+  WallLedger ledger{lmp, surfaces, motion.pose};    // force and torque on zones of the wall
   double all_loads[12] = {};    // the same over all ranks, contacts, begun, ended, bridges, liquid
   bool loads_summed = false, settled = false;
   std::unique_ptr<ComputeAggregateContact> aggregates;

@@ -19,8 +19,8 @@ apf::Bodies &FixWallLevelset::particles()
   return lender ? lender->bodies() : velocities.bodies;
 }
 
-// follow: where the curvature of a wall is not the same everywhere, normals turn from now on as fast
-// as it is where the particle is, to 1/16
+// follow: where the curvature of a wall is not the same everywhere, normals turn from now on as it
+// says where the particle is, to 1/16
 void FixWallLevelset::gather(bool follow)
 {
   const int n = contacts.size();

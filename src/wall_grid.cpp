@@ -161,12 +161,26 @@ static bool has_no_area(const std::array<double, 3> *corners, double least)
   return 0.5 * MathExtra::len3(normal) <= least;
 }
 
+const std::vector<WallGrid::Facet> &WallGrid::facets(int piece) const
+{
+  cut.resize(pieces.size());
+  if (cut[piece].empty()) cut[piece] = cut_facets(piece);
+  return cut[piece];
+}
+
+double WallGrid::memory_usage() const
+{
+  double bytes = numbers.bytes();
+  for (const auto &of_piece : cut) bytes += of_piece.capacity() * sizeof(Facet);
+  return bytes;
+}
+
 /* ----------------------------------------------------------------------
    A piece's field goes on beyond the rim of the piece, behind the other pieces: what is there is
    not part of the wall.
 ------------------------------------------------------------------------- */
 
-std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
+std::vector<WallGrid::Facet> WallGrid::cut_facets(int piece) const
 {
   std::vector<Facet> all;
   const auto fields = surfaces();
