@@ -14,7 +14,7 @@
 using namespace LAMMPS_NS;
 
 static const std::string prefix = "distance_";
-static constexpr double crease = 0.1;      // largest deviation of the slope's size from 1
+static constexpr double crease = 0.02;     // largest deviation of the slope's size from 1
 static constexpr double flat = 1.0e-6;     // curvature that is rounding, in the same units
 static constexpr double uniform = 0.02;    // spread of a curvature that counts as the same, in
                                            // units of the inverse radius of the largest particle

@@ -261,28 +261,28 @@ class GridDistance {
 
     double derivative(int x, int y, int z) const { return rows[y][z].sum(w[0][x]); }
 
-    // t: position in the cell, in [0, 1]
+    // t: position in the cell, in [0, 1]. Values add up to 1, slopes and bends to 0.
     static void set_weights(double t, double per_length, double (*w)[4])
     {
       constexpr double sixth = 1.0 / 6.0;
       const double u = 1.0 - t, t2 = t * t, u2 = u * u;
       w[0][0] = sixth * u2 * u;
-      w[0][1] = sixth * (4.0 - 3.0 * t2 * (2.0 - t));
-      w[0][2] = sixth * (4.0 - 3.0 * u2 * (2.0 - u));
+      w[0][1] = 4.0 * sixth - t2 * (1.0 - 0.5 * t);
       w[0][3] = sixth * t2 * t;
+      w[0][2] = (1.0 - w[0][1]) - (w[0][0] + w[0][3]);
       if constexpr (order >= 1) {
         const double half = 0.5 * per_length;
         w[1][0] = -half * u2;
-        w[1][1] = -half * t * (4.0 - 3.0 * t);
-        w[1][2] = half * u * (4.0 - 3.0 * u);
         w[1][3] = half * t2;
+        w[1][1] = per_length * t * (1.5 * t - 2.0);
+        w[1][2] = -w[1][1] - (w[1][0] + w[1][3]);
       }
       if constexpr (order >= 2) {
         const double q = per_length * per_length;
         w[2][0] = u * q;
-        w[2][1] = (3.0 * t - 2.0) * q;
-        w[2][2] = (1.0 - 3.0 * t) * q;
         w[2][3] = t * q;
+        w[2][1] = w[2][3] - 2.0 * w[2][0];
+        w[2][2] = w[2][0] - 2.0 * w[2][3];
       }
     }
   };

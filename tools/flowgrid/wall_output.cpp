@@ -35,6 +35,7 @@ namespace {
                                    const std::string &what)
   {
     const Widths width(o, grid);
+    const Periods periods(o.periodic, grid);
     try {
       auto done = make_whole(surface, grid);
       if (grid.n[2] == 1 && !surface.is_strip) {
@@ -43,6 +44,8 @@ namespace {
         make_whole(surface, grid);
       }
       const int count = static_cast<int>(surface.triangles.size());
+      surface.add_copies(periods.shifts());
+      make_whole(surface, grid);
       auto wall = std::make_unique<FacetWall>(surface, grid, o.crease * degree, width.band);
       if (!o.fluid_at.empty() && !surface.may_end) {
         const Point x{o.fluid_at[0], o.fluid_at[1],
@@ -75,9 +78,12 @@ namespace {
       wall->add(facet_wall(o, grid, std::move(surface), names));
     }
     if (!o.shapes.empty()) {
+      const Periods periods(o.periodic, grid);
       ShapeTree solids;
-      for (const auto &text : o.shapes) parse_shape(text, solids);
-      wall->add(std::make_unique<ShapeWall>(std::move(solids), grid, o.crease * degree));
+      for (const auto &text : o.shapes) parse_shape(text, periods, solids);
+      wall->add(std::make_unique<ShapeWall>(std::move(solids),
+                                            periods.widened(grid, Widths(o, grid).exact), periods,
+                                            o.crease * degree));
     }
     return wall;
   }
@@ -122,7 +128,7 @@ void write_walls(const Options &o, const Grid &grid, const Surface *mesh, Vtkhdf
   };
   const auto [widest, exact, band] = Widths(o, grid);
   const auto wall = make_wall(o, grid, mesh);
-  const LevelSet levels(*wall, grid, exact, band);
+  const LevelSet levels(*wall, grid, Periods(o.periodic, grid), exact, band);
   printf("wall     %zu piece(s) in %zu array(s); %zu nodes of exact distance, up to %.6g; band "
          "%.6g; in %.2f s\n",
          wall->pieces().size(), levels.arrays().size(), levels.exact_nodes(), exact, band,
