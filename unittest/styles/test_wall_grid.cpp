@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-// C16: planes at any angle to the grid. The distance, 0.485, comes out to 2e-15 (test_grid_distance),
-// which is 1.4e-13 of the overlap of 0.015; the force follows the overlap to the power 3/2 less that
-// of adhesion, so that this is what a force can be exact to here: a few 1e-13 to a few 1e-12.
+// C16: planes at any angle to the grid. The distance is exact to 2e-15 of the box, as the tests of
+// GridDistance show; here the box is 8 long and the overlap 0.015, so that rounding alone is 1e-12
+// of the overlap, and more of the force, a difference of elastic repulsion and adhesion.
 TEST(WallGrid, oblique_plane_is_exact)
 {
   for (int dims : {2, 3})
