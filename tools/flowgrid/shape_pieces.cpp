@@ -133,14 +133,14 @@ void ShapeWall::note_meeting(int a, int b, const Point &x, const Grid &grid, dou
   Meeting found = Meeting::none;
   if (nearest_point(pair, 2, x, y)) {
     if (length(y - x) < reach) found = meeting(a, b, y, turning);
-  } else {
-    // they may touch: smoothly if they do so with equal normals
-    y = pair[0]->foot(x);
   }
   if (found == Meeting::none) {
-    y = pair[0]->foot(x);
+    // they may touch, on the line between their middles: smoothly if they do so with equal normals
+    const bool curved = pair[1]->kind != Carrier::Kind::plane;
+    y = pair[!curved]->foot(pair[curved]->middle(x));
+    y = pair[0]->foot(y);
     const Point z = pair[1]->foot(y);
-    if (length(y - z) < 0.01 * reach &&
+    if (length(y - x) < reach && length(y - z) < 0.01 * reach &&
         std::fabs(dot(pair[0]->normal(y), pair[1]->normal(z))) > 0.99) {
       Sides at_y = sides(y, on_surface * size), at_z = sides(z, on_surface * size);
       const auto outward = [&](Sides &side, int c, int other) {

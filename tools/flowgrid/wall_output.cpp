@@ -88,12 +88,27 @@ namespace {
     return wall;
   }
 
+  // where a piece is, so that one can tell which is which
+  void tell_place(const std::string &array, const Wall::Piece &piece, const Grid &grid)
+  {
+    printf("%s: %s at", array.c_str(), piece.zone.c_str());
+    for (int c = 0; c < Widths::dims_of(grid); c++) {
+      const double first = grid.origin[c], last = first + (grid.n[c] - 1) * grid.spacing[c];
+      const double low = std::max(piece.bounds.low[c], first);
+      const double high = std::min(piece.bounds.high[c], last);
+      printf(" %c = %.6g", "xyz"[c], low);
+      if (high - low > 1e-6 * grid.spacing[c]) printf(" to %.6g", high);
+    }
+    printf("\n");
+  }
+
   void report(const Options &o, const Grid &grid, const Wall &wall, const LevelSet &levels,
               double exact, double widest, double band)
   {
     const double contact = o.particle > 0.0 ? 0.5 * o.particle : std::min(exact, 2.0 * widest);
     const double high = std::min(contact + 0.5 * widest, exact);
     for (const auto &array : levels.arrays()) {
+      for (const int piece : array.pieces) tell_place(array.name, wall.pieces()[piece], grid);
       const auto q = wall_quality(wall, grid, levels, array, std::max(contact - 0.5 * widest, 0.0),
                                   high, band);
       printf("%s: size of slope less 1: max %.2e, rms %.2e; largest error %.2e of distances near "
