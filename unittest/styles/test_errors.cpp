@@ -125,7 +125,7 @@ std::vector<Row> law_errors(const std::string &line, const std::string &command)
       {"rolling 0.01 much", {command, "keyword much is unknown"}},
       {"rolling no", {"must be a number", "got no"}},
       {"break", {command + " break" + missing}},
-      {"break energy", {command, "break must be displacement or force"}},
+      {"break energy", {command, "break must be displacement, force or touch"}},
       {"scale_stiffness", {command, "scale_stiffness is missing; it must be in (0, 1]"}},
       {"scale_stiffness 0", {command, "scale_stiffness must be in (0, 1], got 0"}},
       {"scale_stiffness -1", {command, "scale_stiffness must be in (0, 1], got -1"}},
