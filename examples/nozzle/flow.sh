@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Water in a nozzle with OpenFOAM, on a Cartesian grid with its walls:  flow.sh LENGTH [CELLS [FOLDER]]
+# Water in a nozzle with OpenFOAM, on a Cartesian grid with its walls:  flow.sh LENGTH [CELLS [FOLDER [small]]]
 # makes nozzle-LENGTH.vtkhdf, LENGTH = 0, 0.5 or 1 the length of the contraction in channel widths.
 # CELLS (40) lie across the exit. With CELLS = table it prints the loss of pressure for 20, 40 and 80.
+# small: for particles of 2 um that enter one width before the contraction, nozzle-LENGTH-ratio50.vtkhdf.
 source "$(dirname "${BASH_SOURCE[0]}")/../openfoam.sh"
-length=${1:-0.5} cells=${2:-40} out=${3:-$here}
+length=${1:-0.5} cells=${2:-40} out=${3:-$here} small=${4:-}
 end=$(awk "BEGIN { print $length + 2 }")
 [ "$length" = 0 ] && blocks=step || blocks=taper
 
@@ -28,6 +29,8 @@ corners() { # of the solid above (1) or below (-1); faces that lie in one plane 
     for (k = 1; k <= n; k++) printf "%s%.10g", (k > 1 ? ", " : ""), v[k] * (k % 2 ? 1 : s) * 5e-4 }'
 }
 solids=(--crease 15 --shape "above: polygon($(corners 1))" --shape "below: polygon($(corners -1))")
-bounds=(--bounds -2.5e-3 "$(awk "BEGIN { print $end * 5e-4 }")" -2.55e-4 2.55e-4 0 0)
-map "$out/nozzle-$length.vtkhdf" --planar 2.5e-4 --spacing 5e-6 --compress "${bounds[@]}" "${solids[@]}"
-walls "$out/nozzle-$length-walls.vtkhdf" --spacing 7e-7 --planar 0 --band 8 --particle 1e-5 --compress "${bounds[@]}" "${solids[@]}"
+from=-2.5e-3 d=1e-5 spacing=5e-6 fine=7e-7 name=$length    # of the grid of the flow, and of that of the walls
+[ -z "$small" ] || { from=-5.2e-4 d=2e-6 spacing=1e-6 fine=3.3e-7 name=$length-ratio50; }
+bounds=(--bounds $from "$(awk "BEGIN { print $end * 5e-4 }")" -2.55e-4 2.55e-4 0 0)
+map "$out/nozzle-$name.vtkhdf" --planar 2.5e-4 --spacing $spacing --compress "${bounds[@]}" "${solids[@]}"
+walls "$out/nozzle-$name-walls.vtkhdf" --spacing $fine --planar 0 --band 8 --particle $d --compress "${bounds[@]}" "${solids[@]}"
