@@ -131,7 +131,7 @@ def read_csv(path):
 
 
 def write_csv(path, rows):
-    """Rows of dicts, whole or not at all."""
+    """Rows of dicts, whole or not at all; there must be one."""
     path.parent.mkdir(exist_ok=True)
     draft = path.with_suffix(".draft")
     with open(draft, "w", encoding="ascii", newline="") as file:
