@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the report's figures from what in.nozzle wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi)
+Writes figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi), figure21.png and figure22.png (clogs)
 and compare.txt to DIR, from all nozzle-*.aggregates there.
 """
 import sys
@@ -69,6 +69,42 @@ def draw_profiles(groups, path):
     figure.savefig(path, dpi=150)
 
 
+def close_ups(run):
+    """Times and paths of the close-ups of the exit."""
+    paths = sorted(run.path.parent.glob(f"{run.path.stem}.close.*.png"))
+    return [int(path.suffixes[-2][1:]) / run.unit for path in paths], paths
+
+
+def draw_pictures(pictures, columns, path):
+    """Pictures of (title, file) in rows."""
+    rows = -(-len(pictures) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(3.1 * columns, 2.7 * rows), squeeze=False,
+                                layout="constrained")
+    for axis in axes.flat:
+        axis.axis("off")
+    for axis, (title, file) in zip(axes.flat, pictures):
+        axis.imshow(plt.imread(file))
+        axis.set_title(title, fontsize=9)
+    figure.savefig(path, dpi=110)
+
+
+def draw_clogs(runs, out):
+    """The end of each run that clogged (figure 21), and how a bridge forms (figure 22) in the one with most pictures."""
+    clogged = [run for run in runs if parts(run)[3] == 1 and close_ups(run)[1]]
+    if not clogged:
+        return
+    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:g}", close_ups(run)[1][-1])
+            for run in clogged]
+    draw_pictures(ends, min(4, len(ends)), out / "figure21.png")
+    run = max(clogged, key=lambda run: len(close_ups(run)[1]) / run.t[-1])
+    times, paths = close_ups(run)
+    closed = run.t[run.history["left"] >= run.history["left"][-1] - 0.5][0]
+    last = next(k for k, t in enumerate(times) if t >= closed or t == times[-1])
+    first = max(0, last - 7)
+    draw_pictures([(f"t = {t:g}", path) for t, path in zip(times[first:last + 1], paths[first:last + 1])], 4,
+                  out / "figure22.png")
+
+
 def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
@@ -84,6 +120,7 @@ def main():
     if phis:
         draw_profiles([("length 1, walls adhere", phis, lambda run: f"phi = {parts(run)[1]:g}")],
                       out / "figure20.png")
+    draw_clogs(runs, out)
     values = {(run.name, key): value for run in runs for key, value in values_of(run).items()}
     costs = [run.cost(f"{run.history['entered'][-1]:.0f} entered, {run.history['left'][-1]:.0f} left")
              for run in runs]
