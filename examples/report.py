@@ -45,8 +45,8 @@ def read_history(path):
     rows = read_rows(path)
     names = [name.split("[")[0] for name in path.read_text().splitlines()[1].lstrip("# ").split()]
     rows = [row for row in rows if len(row) == len(names)]
-    if not rows:
-        stop(path, "holds no numbers yet")
+    if len(rows) < 2:
+        stop(path, "holds no numbers of two times yet")
     return dict(zip(names, np.array(rows).T))
 
 
@@ -72,7 +72,7 @@ class Run:
         self.history = read_history(path)
         step = self.history["step"]
         self.t = step / steps if steps else self.history["t"]
-        self.unit = steps or step[-1] / self.t[-1]
+        self.unit = steps or (step[-1] - step[0]) / (self.t[-1] - self.t[0])    # t may be a mean over steps
         self.log = path.with_suffix(".log")
 
     def blocks(self, suffix):

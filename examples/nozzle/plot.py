@@ -15,6 +15,7 @@ sys.path.append(str(HERE.parent))
 from report import Ours, Run, arguments, conclude, read_report, read_runs
 
 CHANNEL = 5e-4    # width of the channel [m], as in in.nozzle
+TRANSIT = 10 / 1.5    # from the exit to the outlet, 10 D at the largest velocity there [D/U]
 
 
 def parts(run):
@@ -49,8 +50,7 @@ def draw_history(runs, path):
                           label=f"length {length}" + (", clogs" if clogged == 1 else ""))
         axis.set(xlabel="t  [D/U]", ylabel="mean size of aggregates",
                  title="walls adhere" if wall else "walls do not adhere")
-    axes[0].axhline(2.4, color="k", linestyle="--", linewidth=0.8, label="report")
-    for axis in axes:
+        axis.axhline(2.4, color="k", linestyle="--", linewidth=0.8, label="report, walls do not adhere")
         axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
@@ -98,7 +98,8 @@ def draw_clogs(runs, out):
     draw_pictures(ends, min(4, len(ends)), out / "figure21.png")
     run = max(clogged, key=lambda run: len(close_ups(run)[1]) / run.t[-1])
     times, paths = close_ups(run)
-    closed = run.t[run.history["left"] >= run.history["left"][-1] - 0.5][0]
+    left = run.history["left"]
+    closed = run.t[left >= left[-1] - 0.5][0] - TRANSIT + 1
     last = next(k for k, t in enumerate(times) if t >= closed or t == times[-1])
     first = max(0, last - 7)
     draw_pictures([(f"t = {t:g}", path) for t, path in zip(times[first:last + 1], paths[first:last + 1])], 4,
