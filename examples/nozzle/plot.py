@@ -93,7 +93,7 @@ def draw_clogs(runs, out):
     clogged = [run for run in runs if parts(run)[3] == 1 and close_ups(run)[1]]
     if not clogged:
         return
-    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:g}", close_ups(run)[1][-1])
+    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:.0f}", close_ups(run)[1][-1])
             for run in clogged]
     draw_pictures(ends, min(4, len(ends)), out / "figure21.png")
     run = max(clogged, key=lambda run: len(close_ups(run)[1]) / run.t[-1])
