@@ -81,7 +81,7 @@ TEST(Examples, channel_goes_on_from_its_restart_file)
   const auto whole = channel("channel_whole", {{"-var", "t", "0.4"}});
   const auto parts = channel("channel_parts",
                              {{"-var", "t", "0.3"}, {"-var", "t", "0.4", "-var", "resume", "end"}});
-  // time, particles in aggregates, aggregates, their size, the same at walls; rounding has not grown
+  // time, particles in aggregates, aggregates, size; at walls: rounding has not grown yet
   const auto counts = [](std::istringstream line) {
     std::string text, word;
     for (int k = 0; k < 8 && line >> word; k++) text += word + " ";
