@@ -41,10 +41,14 @@ def read_rows(path):
 
 
 def read_history(path):
-    """Columns of fix ave/time by name, as in the file's second line."""
+    """Columns of fix ave/time by name, as in the file's second line.
+
+    A run that went on from a restart file may have written a step twice: the later row counts.
+    """
     rows = read_rows(path)
     names = [name.split("[")[0] for name in path.read_text().splitlines()[1].lstrip("# ").split()]
-    rows = [row for row in rows if len(row) == len(names)]
+    by_step = {row[0]: row for row in rows if len(row) == len(names)}
+    rows = [by_step[step] for step in sorted(by_step)]
     if len(rows) < 2:
         stop(path, "holds no numbers of two times yet")
     return dict(zip(names, np.array(rows).T))
@@ -52,15 +56,15 @@ def read_history(path):
 
 def read_blocks(path):
     """Blocks of fix ave/chunk or ave/histo: list of (step, rows of numbers); whole blocks only."""
-    rows, blocks = read_rows(path), []
+    rows, blocks = read_rows(path), {}
     while rows:
         step, bins = rows[0][0], int(rows[0][1])
         if len(rows) > bins:
-            blocks.append((step, np.array(rows[1:bins + 1])))
+            blocks[step] = np.array(rows[1:bins + 1])
         rows = rows[bins + 1:]
     if not blocks:
         stop(path, "holds no block yet")
-    return blocks
+    return sorted(blocks.items())
 
 
 class Run:
