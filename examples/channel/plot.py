@@ -130,9 +130,9 @@ def style(phi):
     return {"color": COLOURS[k], "linestyle": DASHES[k % 4]}
 
 
-def save(figure, path):
+def save(figure, path, dpi=200):
     """Writes a figure."""
-    figure.savefig(path, dpi=200, bbox_inches="tight", facecolor="white")
+    figure.savefig(path, dpi=dpi, bbox_inches="tight", facecolor="white")
     plt.close(figure)
 
 
@@ -174,7 +174,7 @@ def draw_pictures(runs, amap, path):
     bar = figure.colorbar(size_colours(amap), ax=axes, location="bottom", shrink=0.5, aspect=40,
                           pad=0.02, extend="max", ticks=[1, 4, 8, 12, 16, 20])
     bar.set_label("particles in the aggregate")
-    save(figure, path)
+    save(figure, path, 90)
 
 
 def draw_profile(axes, run, words):
