@@ -92,6 +92,7 @@ ComputeAggregateContact::~ComputeAggregateContact()
 
 void ComputeAggregateContact::init()
 {
+  contacts_are_old = true;
   if (contact_lists(force->pair).empty())
     error->all(FLERR, Error::NOLASTLINE,
                "Compute aggregate/contact needs a pair style that keeps contacts, such as "
@@ -122,6 +123,12 @@ void ComputeAggregateContact::compute_vector()
 // both outputs, so that the second of them that is asked for costs nothing
 void ComputeAggregateContact::find_aggregates()
 {
+  if (contacts_are_old)    // there may be other atoms or another decomposition than these were for
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Compute aggregate/contact {} is asked for before the first forces of a run, as by a "
+        "variable of fix balance: keep its values for that by fix ave/atom",
+        id);
   invoked_peratom = invoked_vector = update->ntimestep;
 
   start_labels();

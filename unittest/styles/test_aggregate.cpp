@@ -535,3 +535,20 @@ TEST(Aggregate, errors_name_the_cause)
                 .find("Compute aggregate/contact needs atom IDs: atom_modify id yes"),
             std::string::npos);
 }
+
+// fix balance evaluates its variables before ghosts and contacts of the run are there
+TEST(Aggregate, weights_of_balance_are_taken_from_fix_ave_atom)
+{
+  const std::string balance = "fix share all balance 10 1.0 shift x 5 1.0 weight var cost\nrun 0";
+  Simulation sim;
+  build(sim, Scene(), {{5.0, 5.0, 5.0, 1}, {5.95, 5.0, 5.0, 1}});
+  sim.run(measure + std::string("\nvariable cost atom 1+c_agg[4]\n"));
+  const std::string said = sim.error_of(balance);
+  EXPECT_NE(said.find("aggregate/contact agg is asked for before the first forces"), said.npos) << said;
+
+  Simulation kept;
+  build(kept, Scene(), {{5.0, 5.0, 5.0, 1}, {5.95, 5.0, 5.0, 1}});
+  kept.run(measure + std::string("\nfix touch all ave/atom 1 1 10 c_agg[4]\n"
+                                 "variable cost atom 1+f_touch\n"));
+  EXPECT_EQ(kept.error_of(balance), "");
+}
