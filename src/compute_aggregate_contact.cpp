@@ -123,7 +123,7 @@ void ComputeAggregateContact::compute_vector()
 // both outputs, so that the second of them that is asked for costs nothing
 void ComputeAggregateContact::find_aggregates()
 {
-  if (contacts_are_old)    // there may be other atoms or another decomposition than these were for
+  if (contacts_are_old && update->setupflag)    // not these atoms, or not this decomposition
     error->all(
         FLERR, Error::NOLASTLINE,
         "Compute aggregate/contact {} is asked for before the first forces of a run, as by a "

@@ -544,11 +544,13 @@ TEST(Aggregate, weights_of_balance_are_taken_from_fix_ave_atom)
   build(sim, Scene(), {{5.0, 5.0, 5.0, 1}, {5.95, 5.0, 5.0, 1}});
   sim.run(measure + std::string("\nvariable cost atom 1+c_agg[4]\n"));
   const std::string said = sim.error_of(balance);
-  EXPECT_NE(said.find("aggregate/contact agg is asked for before the first forces"), said.npos) << said;
+  EXPECT_NE(said.find("aggregate/contact agg is asked for before the first forces"), said.npos)
+      << said;
 
   Simulation kept;
   build(kept, Scene(), {{5.0, 5.0, 5.0, 1}, {5.95, 5.0, 5.0, 1}});
-  kept.run(measure + std::string("\nfix touch all ave/atom 1 1 10 c_agg[4]\n"
-                                 "variable cost atom 1+f_touch\n"));
+  kept.run(measure +
+           std::string("\nfix touch all ave/atom 1 1 10 c_agg[4]\n"
+                       "variable cost atom 1+f_touch\n"));
   EXPECT_EQ(kept.error_of(balance), "");
 }
