@@ -59,7 +59,7 @@ inline StiffestMode capillary_mode(const BridgeConstants &c)
   mode.least = mode.overlap;
   mode.mass = c.m;
   mode.slow2 = 2.0 * force * length / c.m;
-  mode.mode = NORMAL;
+  mode.mode = BRIDGE;
   return mode;
 }
 
