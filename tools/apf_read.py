@@ -103,35 +103,40 @@ def header(path, lines):
 
 
 def read_history(path):
-    """A file of fix ave/time with scalars over time: one Table. Names are those of its second line."""
+    """A file of fix ave/time with scalars over time: one Table. Names are those of its second line.
+
+    A run that went on from a restart file may have written a step twice: the later row counts.
+    """
     lines = lines_of(path)
     names = header(path, lines)[1]
     rows = [numbers(path, number, line, len(names))
             for number, line in enumerate(lines, 1) if line and not line.startswith("#")]
     if not rows:
         stop(path, "holds no numbers yet")
-    return Table(Path(path), names, np.array(rows))
+    by_step = {row[0]: row for row in rows}
+    return Table(Path(path), names, np.array([by_step[step] for step in sorted(by_step)]))
 
 
 def read_blocks(path):
-    """A file of fix ave/chunk, ave/histo or ave/time with vectors: a Table for each whole block."""
+    """A file of fix ave/chunk, ave/histo or ave/time with vectors: a Table for each whole block, the later
+    one of those of the same step."""
     lines = lines_of(path)
     heads = header(path, lines)
     if len(heads) < 3:
         stop(path, "holds no blocks: it is a table over time")
     data = [(number, line) for number, line in enumerate(lines, 1) if line and not line.startswith("#")]
-    blocks, begin = [], 0
+    blocks, begin = {}, 0
     while begin < len(data):
         number, line = data[begin]
         step, count = (int(value) for value in numbers(path, number, line)[:2])
         if begin + count >= len(data):
             break
         rows = [numbers(path, *one, len(heads[2])) for one in data[begin + 1:begin + 1 + count]]
-        blocks.append(Table(Path(path), heads[2], np.array(rows), step))
+        blocks[step] = Table(Path(path), heads[2], np.array(rows), step)
         begin += 1 + count
     if not blocks:
         stop(path, "holds no block yet")
-    return blocks
+    return [blocks[step] for step in sorted(blocks)]
 
 
 @dataclass

@@ -138,6 +138,12 @@ class Plot(unittest.TestCase):
         curves, _ = self.draw("log", self.file(HISTORY), "--x", "t", "--y", "c_agg[1]", "c_agg[2]")
         self.assertEqual(curves, {"c_agg[1]": ([0, 0.5], [1, 2]), "c_agg[2]": ([0, 0.5], [10, 20])})
 
+    def test_a_step_written_twice_counts_once(self):
+        curves, _ = self.draw("log", self.file(HISTORY.replace("10 1 3", "0 0 7 70\n5 0.5 8 80\n")), "--y", "c_agg[1]")
+        self.assertEqual(curves, {"c_agg[1]": ([0, 5], [7, 8])})
+        blocks = apf_read.read_blocks(self.file(ZONES + ZONES[ZONES.index("0 2"):].replace("3 1e-6", "4 1e-6")))
+        self.assertEqual([(block.step, block["f_w[9]"][0]) for block in blocks], [(0, 0), (20, 4)])
+
     def test_profile(self):
         path = self.file(CHUNKS)
         curves, _ = self.draw("profile", path, "--y", "density/number", "vx", "--steps", "100", "200")
