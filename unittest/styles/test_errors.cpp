@@ -377,11 +377,11 @@ TEST(SceneChecks, discs_empty_groups_and_particles_wider_than_the_box)
         log_of(empty + "fix idle none " + integrator + "\nrun 0"),
         {integrator, {"WARNING: Pair granular/adhesive: fix idle", "its group none is empty"}});
   const std::string filled = empty +
-      "fix air all flow/field uniform 1 0 0 density 1 viscosity 1\n"
-      "fix in none inlet/flow x 1 air number 1 diameter 1 density 1 type 1 seed 1\n";
+      "fix air all flow/field uniform 0 1 0 density 1 viscosity 1\n"
+      "fix in none inlet/flow y 1 air number 1 diameter 1 density 1 type 1 seed 1\n";
   EXPECT_EQ(log_of(filled + "fix idle none nve/sphere\nrun 0").find("is empty"), std::string::npos);
   EXPECT_EQ(log_of(particles + pair + "run 0").find("WARNING: Pair"), std::string::npos);
 
-  expect_words(log_of(particles + pair + "set atom 1 diameter 12\nset atom 1 x -100\nrun 0"),
+  expect_words(log_of(particles + pair + "set atom 1 diameter 12\nrun 0"),
                {"diameter 12", {"the largest particle has a diameter of 12, the box is 10 wide"}});
 }
