@@ -18,53 +18,27 @@ import matplotlib
 matplotlib.use("Agg")
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parent.parent / "tools"))
+import apf_read
+from apf_read import stop
+
 HEADS = ["case", "figure", "quantity", "report", "ours", "difference", "verdict", "the report says"]
-
-
-def stop(path, reason):
-    """Ends with exit code 1 and a message that names the file."""
-    sys.exit(f"{path}: {reason}")
 
 
 # ---------------------------------------------------------------------- runs
 
 
-def read_rows(path):
-    """Rows of numbers of a file that LAMMPS's fix ave/* wrote, without a last line that is cut off."""
-    if not path.is_file():
-        stop(path, "missing; the example's input script writes it")
-    lines = path.read_text().split("\n")[:-1]
-    try:
-        return [[float(word) for word in line.split()] for line in lines if line[:1] != "#"]
-    except ValueError as error:
-        stop(path, f"not a number: {error}")
-
-
 def read_history(path):
-    """Columns of fix ave/time by name, as in the file's second line.
-
-    A run that went on from a restart file may have written a step twice: the later row counts.
-    """
-    rows = read_rows(path)
-    names = [name.split("[")[0] for name in path.read_text().splitlines()[1].lstrip("# ").split()]
-    by_step = {row[0]: row for row in rows if len(row) == len(names)}
-    rows = [by_step[step] for step in sorted(by_step)]
-    if len(rows) < 2:
+    """Columns of fix ave/time by name, as in the file's second line; of at least two times."""
+    history = apf_read.read_history(path)
+    if len(history.rows) < 2:
         stop(path, "holds no numbers of two times yet")
-    return dict(zip(names, np.array(rows).T))
+    return {name.split("[")[0]: history[name] for name in history.names}
 
 
 def read_blocks(path):
     """Blocks of fix ave/chunk or ave/histo: list of (step, rows of numbers); whole blocks only."""
-    rows, blocks = read_rows(path), {}
-    while rows:
-        step, bins = rows[0][0], int(rows[0][1])
-        if len(rows) > bins:
-            blocks[step] = np.array(rows[1:bins + 1])
-        rows = rows[bins + 1:]
-    if not blocks:
-        stop(path, "holds no block yet")
-    return sorted(blocks.items())
+    return [(block.step, block.rows) for block in apf_read.read_blocks(path)]
 
 
 class Run:

@@ -68,6 +68,7 @@ class ComputeAggregateContact : public Compute {
   enum { LABEL, CONTACTS } reverse;    // what reverse_comm brings to the owner of an atom
 
   void find_aggregates();
+  bool atoms_have_changed() const;
   void start_labels();
   void gather_contacts();
   void gather_wall_contacts();

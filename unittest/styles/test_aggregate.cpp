@@ -537,6 +537,26 @@ TEST(Aggregate, errors_name_the_cause)
 }
 
 // fix balance evaluates its variables before ghosts and contacts of the run are there
+// write_restart brings atoms back into the box, and gives ghosts new numbers
+TEST(Aggregate, after_write_restart_contacts_have_to_be_found_again)
+{
+  Simulation sim;
+  sim.run("atom_style sphere\nregion box block 0 9 0 9 0 9\ncreate_box 1 box\n"
+          "comm_modify vel yes\ncreate_atoms 1 single 7.95 5 5\ncreate_atoms 1 single 8.9 5 5\n"
+          "create_atoms 1 single 2 2 2\nset group all diameter 1 density 1\n"
+          "velocity all set 1 0 0\npair_style granular/adhesive\n"
+          "pair_coeff * * jkr 1e3 0.25 0.01\nneighbor 1 bin\n"
+          "fix move all nve/sphere\ntimestep 1e-3\n"
+          "compute agg all aggregate/contact\nthermo_style custom step\nrun 150\n");
+  const std::string file = scratch_file("restart");
+  sim.run("write_restart " + file);
+  std::filesystem::remove(file);
+  const std::string said = sim.error_of("print $(c_agg[1])");
+  EXPECT_NE(said.find("use run 0 first"), said.npos) << said;
+  sim.run("run 0");
+  EXPECT_EQ(sim.value("c_agg[1]"), 2.0);
+}
+
 TEST(Aggregate, weights_of_balance_are_taken_from_fix_ave_atom)
 {
   const std::string balance = "fix share all balance 10 1.0 shift x 5 1.0 weight var cost\nrun 0";
