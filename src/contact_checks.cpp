@@ -77,7 +77,9 @@ namespace {
 
 void check_scene(LAMMPS *lmp, const std::string &who, double diameter)
 {
-  const bool filled_later = !lmp->modify->get_fix_by_style("^inlet/flow|^deposit|^pour").empty();
+  bool filled_later = false;
+  for (const char *inserts : {"^inlet/flow", "^deposit", "^pour"})
+    filled_later |= !lmp->modify->get_fix_by_style(inserts).empty();
   std::vector<std::string> warnings;
   for (const auto &fix : lmp->modify->get_fix_list()) {
     if (!fix->time_integrate) continue;

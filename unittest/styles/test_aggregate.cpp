@@ -8,6 +8,7 @@
 #include "gtest/gtest.h"
 
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 namespace {
@@ -542,13 +543,13 @@ TEST(Aggregate, after_write_restart_contacts_have_to_be_found_again)
 {
   Simulation sim;
   sim.run("atom_style sphere\nregion box block 0 9 0 9 0 9\ncreate_box 1 box\n"
-          "comm_modify vel yes\ncreate_atoms 1 single 7.95 5 5\ncreate_atoms 1 single 8.9 5 5\n"
+          "comm_modify vel yes\ncreate_atoms 1 single 7.905 5 5\ncreate_atoms 1 single 8.9 5 5\n"
           "create_atoms 1 single 2 2 2\nset group all diameter 1 density 1\n"
           "velocity all set 1 0 0\npair_style granular/adhesive\n"
           "pair_coeff * * jkr 1e3 0.25 0.01\nneighbor 1 bin\n"
           "fix move all nve/sphere\ntimestep 1e-3\n"
           "compute agg all aggregate/contact\nthermo_style custom step\nrun 150\n");
-  const std::string file = scratch_file("restart");
+  const auto file = (std::filesystem::temp_directory_path() / "apf-aggregate-restart").string();
   sim.run("write_restart " + file);
   std::filesystem::remove(file);
   const std::string said = sim.error_of("print $(c_agg[1])");

@@ -368,7 +368,10 @@ TEST(WallWarnings, overlap_and_timestep)
 TEST(SceneChecks, discs_empty_groups_and_particles_wider_than_the_box)
 {
   const std::string pair = style + hertz;
-  expect_errors(particles + pair + "unfix move\n",
+  expect_errors("units lj\ndimension 2\natom_style sphere\ncomm_modify vel yes\n"
+                "region box block 0 10 0 10 -0.5 0.5\ncreate_box 2 box\n"
+                "create_atoms 1 single 5 5 0\nset group all diameter 1.0 density 1.0\n" +
+                    pair,
                 {{"fix flat all nve/sphere disc\nrun 0", {"fix flat nve/sphere", "keyword disc"}}});
 
   const std::string empty = particles + pair + "unfix move\ngroup none empty\n";
