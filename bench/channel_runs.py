@@ -63,7 +63,8 @@ def run_channel(args, scheme, seed, time):
     folder.mkdir(parents=True)
     variables = {"integrate": scheme.integrate, "step": scheme.step, "seed": seed, "t": time,
                  "dir": folder, "picture": 2 * time + 1}
-    log = run_lammps(args.lmp, channel_script(folder, scheme), variables, folder, args.ranks)
+    run_lammps(args.lmp, channel_script(folder, scheme), variables, folder, args.ranks)
+    log = (folder / "channel-phi50.log").read_text()
     rows = np.loadtxt(folder / "channel-phi50.aggregates", ndmin=2)
     last = rows[rows[:, 1] >= 0.8 * time - 1e-6]
     return dict(read_log(log), **{name: float(last[:, k].mean())

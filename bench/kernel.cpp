@@ -1,10 +1,10 @@
 // What a contact costs in the kernel alone, by composition of sub-models, dimension and instruction
 // set; `scalar` is the law taken contact by contact. Time is per pass over all contacts of the scene,
-// per_contact that of one contact. `bridges` is the pass over liquid bridges alone, one for each of the
-// contacts and in dry contact itself, to be added to the kernel's time. Results: kernel.md.
+// per_contact that of one contact. `bridges` is the pass over liquid bridges alone, one for each of
+// the contacts and in dry contact itself, to be added to the kernel's time. Results: kernel.md.
 
 #include "../unittest/core/scalar_kernel.h"
-#include "contact/bridge_list.h"
+#include "contact/bridge_kernel.h"
 #include "flakes.h"
 
 #include <benchmark/benchmark.h>
@@ -26,30 +26,32 @@ void pass(benchmark::State &state, ContactKernel (*kernel_of)(const KernelChoice
                                                          benchmark::Counter::kInvert);
 }
 
-void pass_bridges(benchmark::State &state, bool planar, Capillary capillary)
+// bridges: which sub-model they have beside capillary and viscous force along the normal
+void pass_bridges(benchmark::State &state, BridgeKernel (*kernel_of)(const BridgeChoice &),
+                  bool planar, const std::string &what)
 {
   Flakes flakes(planar, n_compositions - 1);
   BridgeModel liquid;
   liquid.volume_ratio = 0.01;
   liquid.sigma = 0.072;
   liquid.mu = 1.0e-3;
-  liquid.capillary = capillary;
+  liquid.capillary = what == "willett" ? Capillary::willett : Capillary::maugis;
+  liquid.tangential = what == "tangential";
+  const ContactModel dry = model_with(n_compositions - 1);
   const double r = 5.0e-6, m = 4.0 / 3.0 * pi * r * r * r * 2600.0;
   const auto bodies = ContactBodies::pair(r, r, 0.5 * m, 0.2 * m * r * r);
-  const auto constants = BridgeConstants::make(liquid, bodies, liquid.volume(r));
-  const auto contact = ContactConstants::make(model_with(n_compositions - 1), bodies);
   BridgeList bridges;
-  for (int k = 0; k < flakes.list.size(); k++)
-    bridges.add(flakes.list.i[k], flakes.list.j[k], k, constants, BridgeMemory(), false);
-  std::vector<DueLoad> due;
-  auto dry = [&](int, double overlap, double closing_speed) {
-    return force_at(contact, jkr_root(overlap, contact.inv_R, contact.neck), closing_speed,
-                    flakes.times.step);
-  };
+  for (int k = 0; k < flakes.list.size(); k++) {
+    const int kind = bridges.kinds.find(0, WetContact{liquid, dry}, bodies);
+    bridges.add(flakes.list.i[k], flakes.list.j[k], k, kind, {liquid.volume(r), 0.0}, false);
+    bridges.set_touching(k, true);
+  }
+  BridgeChoice choice;
+  choice.planar = planar;
+  choice.include(liquid);
+  const BridgeKernel kernel = kernel_of(choice);
   for (auto _ : state)
-    flakes.bodies.with_rows([&](auto *rows) {
-      benchmark::DoNotOptimize(bridges.add_forces(rows, flakes.times, dry, due));
-    });
+    benchmark::DoNotOptimize(kernel(bridges, flakes.bodies, flakes.times, nullptr));
   state.counters["per_contact"] = benchmark::Counter(
       bridges.size(), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
@@ -77,16 +79,19 @@ int main(int argc, char **argv)
               ->Unit(benchmark::kMicrosecond);
         }
     }
+  std::vector<BridgeBuild> bridges = bridge_builds();
+  bridges.insert(bridges.begin(), {"scalar", apf_test::scalar_bridges});
   for (const bool planar : {true, false})
-    for (const auto capillary : {Capillary::maugis, Capillary::willett}) {
-      const std::string title = std::string(planar ? "2D" : "3D") + "/bridges/" +
-          (capillary == Capillary::maugis ? "maugis" : "willett");
-      benchmark::RegisterBenchmark(title.c_str(), pass_bridges, planar, capillary)
-          ->MinTime(0.05)
-          ->Repetitions(9)
-          ->ReportAggregatesOnly()
-          ->Unit(benchmark::kMicrosecond);
-    }
+    for (const std::string what : {"maugis", "willett", "tangential"})
+      for (const auto &build : bridges) {
+        const std::string title =
+            std::string(planar ? "2D" : "3D") + "/bridges/" + what + "/" + build.name;
+        benchmark::RegisterBenchmark(title.c_str(), pass_bridges, build.kernel, planar, what)
+            ->MinTime(0.05)
+            ->Repetitions(9)
+            ->ReportAggregatesOnly()
+            ->Unit(benchmark::kMicrosecond);
+      }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

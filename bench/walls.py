@@ -17,7 +17,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from speed_error import HERE, Failure, processor, run_lammps, stop
+from lammps_runs import HERE, Failure, processor, run_lammps, stop
 
 AROUND, ALONG, R = 33, 99, 19.0    # spheres of diameter 1; radius of the cylinder
 LAW = "jkr 1e6 0.25 10 damping tsuji 0.3 sliding 0.3 rolling 0.01"

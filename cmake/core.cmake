@@ -19,6 +19,7 @@ target_link_libraries(apf-kernel PUBLIC apf-core)
 set_target_properties(apf-kernel PROPERTIES POSITION_INDEPENDENT_CODE ON)
 function(add_kernel isa)
   add_library(apf-kernel-${isa} OBJECT ${APF_SOURCE}/contact/contact_kernel.cpp
+    ${APF_SOURCE}/contact/bridge_kernel.cpp
     ${APF_SOURCE}/flow/grid_sampler.cpp ${APF_SOURCE}/flow/fluid_forces.cpp
     ${APF_SOURCE}/flow/lane_rows.cpp)
   target_link_libraries(apf-kernel-${isa} PRIVATE apf-core)

@@ -1,95 +1,232 @@
-"""What plot.py of the examples share: files that LAMMPS wrote, numbers of the report, the table of both.
+"""What plot.py of the examples share: runs that LAMMPS wrote, numbers of the report, the table of both.
 
-Needs Debian's python3-numpy and python3-matplotlib.
+A run is a set of files NAME.*: the log, the history that fix ave/time wrote, profiles and histograms. Numbers
+of the report are in report.csv of an example; ours, once kept, in its folder results: values.csv (case, quantity,
+ours, spread, t) and runs.csv (parameters, wall-clock time, memory). Needs Debian's python3-numpy and
+python3-matplotlib.
 """
+import argparse
 import csv
 import re
 import sys
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
 
+import matplotlib
+
+matplotlib.use("Agg")
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parent.parent / "tools"))
+import apf_read
+from apf_read import stop
 
-def stop(path, reason):
-    """Ends with exit code 1 and a message that names the file."""
-    sys.exit(f"{path}: {reason}")
+HEADS = ["case", "figure", "quantity", "report", "ours", "difference", "verdict", "the report says"]
 
 
-def read_rows(path):
-    """Rows of numbers of a file that LAMMPS's fix ave/* wrote, without a last line that is cut off."""
-    if not path.is_file():
-        stop(path, "missing; the example's input script writes it")
-    lines = path.read_text().split("\n")[:-1]
-    return [[float(word) for word in line.split()] for line in lines if line[:1] != "#"]
+# ---------------------------------------------------------------------- runs
 
 
 def read_history(path):
-    """Columns of fix ave/time by name, as in the file's second line."""
-    rows = read_rows(path)
-    names = [name.split("[")[0] for name in path.read_text().splitlines()[1].lstrip("# ").split()]
-    rows = [row for row in rows if len(row) == len(names)]
-    if not rows:
-        stop(path, "holds no numbers yet")
-    return dict(zip(names, np.array(rows).T))
+    """Columns of fix ave/time by name, as in the file's second line; of at least two times."""
+    history = apf_read.read_history(path)
+    if len(history.rows) < 2:
+        stop(path, "holds no numbers of two times yet")
+    return {name.split("[")[0]: history[name] for name in history.names}
 
 
 def read_blocks(path):
     """Blocks of fix ave/chunk or ave/histo: list of (step, rows of numbers); whole blocks only."""
-    rows, blocks = read_rows(path), []
-    while rows:
-        step, bins = rows[0][0], int(rows[0][1])
-        if len(rows) > bins:
-            blocks.append((step, np.array(rows[1:bins + 1])))
-        rows = rows[bins + 1:]
-    if not blocks:
-        stop(path, "holds no block yet")
-    return blocks
+    return [(block.step, block.rows) for block in apf_read.read_blocks(path)]
 
 
-def read_log(path):
-    """Wall-clock time of all runs [s] and largest memory [MB] in a log."""
-    text = path.read_text()
-    times = [float(word) for word in re.findall(r"^Loop time of (\S+)", text, re.M)]
-    memory = [float(word) for word in re.findall(r"^Maximum resident set size: (\S+)", text, re.M)]
-    return sum(times), max(memory, default=np.nan)
+class Run:
+    """One run: `history` over the times `t`, blocks of other files, what it cost."""
+
+    def __init__(self, path, prefix, steps=None):
+        """From its history; `steps` in a unit of time, where the history has no column t."""
+        self.path, self.name = path, path.stem.removeprefix(prefix)
+        self.history = read_history(path)
+        step = self.history["step"]
+        self.t = step / steps if steps else self.history["t"]
+        self.unit = steps or (step[-1] - step[0]) / (self.t[-1] - self.t[0])    # t may be a mean over steps
+        self.log = path.with_suffix(".log")
+
+    def blocks(self, suffix):
+        """Times and rows of the blocks of another file of the run."""
+        blocks = read_blocks(self.path.with_suffix(suffix))
+        return np.array([step for step, _ in blocks]) / self.unit, [rows for _, rows in blocks]
+
+    def last(self, key, share=0.2):
+        """Mean and standard deviation in time of a column over the last share of the run."""
+        values = self.history[key][self.t >= (1 - share) * self.t[-1] - 1e-6]
+        return values.mean(), values.std(ddof=1) if len(values) > 1 else np.nan
+
+    def ending(self):
+        """What the script printed at its end (pass: ..., FAIL: ...); empty as long as it runs."""
+        lines = self.log.read_text().split("\n") if self.log.is_file() else []
+        ends = [line for line in lines if line[:5] in ("pass:", "FAIL:")]
+        return ends[-1] if ends else ""
+
+    def cost(self, parameters):
+        """Row of runs.csv: all pieces of the run together."""
+        text = self.log.read_text() if self.log.is_file() else ""
+        loops = re.findall(r"^Loop time of (\S+) on (\d+) procs", text, re.M)
+        memory = re.findall(r"^Maximum resident set size: (\S+)", text, re.M)
+        return {"run": self.path.stem, "parameters": parameters, "t": f"{self.t[-1]:g}",
+                "ranks": max((ranks for _, ranks in loops), default=""),
+                "seconds": f"{sum(float(seconds) for seconds, _ in loops):.0f}",
+                "MB": f"{max(map(float, memory)):.0f}" if memory else ""}
+
+
+def read_runs(folder, pattern, make):
+    """All runs of a folder whose history's name fits the pattern; make(path) is a Run."""
+    runs = [make(path) for path in sorted(folder.glob(pattern))]
+    if not runs:
+        stop(folder / pattern, "missing; run the input script with -var dir first")
+    return runs
+
+
+# ---------------------------------------------------------------------- the report's numbers beside ours
+
+
+@dataclass
+class Ours:
+    """A number of ours, its standard deviation in time if known, and the time that was reached."""
+
+    value: float
+    spread: float = np.nan
+    t: float = np.nan
+
+
+def read_csv(path):
+    """Rows as dicts; lines that begin with # are comments; none where there is no file."""
+    if not path.is_file():
+        return []
+    with open(path, encoding="ascii") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def write_csv(path, rows):
+    """Rows of dicts, whole or not at all; there must be one."""
+    path.parent.mkdir(exist_ok=True)
+    draft = path.with_suffix(".draft")
+    with open(draft, "w", encoding="ascii", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    draft.replace(path)
 
 
 def read_report(path):
-    """Rows of report.csv as dicts; low, value, high are floats, nan where the report has none."""
-    with open(path, encoding="ascii") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    """Rows of report.csv; low, value, high are floats, nan where the report has none."""
+    rows = read_csv(path)
     for row in rows:
         row.update({key: float(row[key] or "nan") for key in ("low", "value", "high")})
     return rows
 
 
+def outside(row, value):
+    """How far a value lies above (> 0) or below (< 0) the report's range; 0 inside."""
+    if value < row["low"]:
+        return value - row["low"]
+    return value - row["high"] if value > row["high"] else 0.0
+
+
 def verdict(row, ours):
-    """Words for one row: agreement within the report's range, or not."""
-    if np.isnan(ours):
+    """Words for one row: too short a run, no number to compare with, or agreement."""
+    since = float(row.get("for_t", "").strip("=> ") or 0)
+    if ours.t < since - 1e-6:
+        return f"not reached: run ended at t = {ours.t:g}"
+    if np.isnan(ours.value):
         return "not reached"
-    return "differs" if ours < row["low"] or ours > row["high"] else "agrees"
+    if np.isnan(row["low"]) and np.isnan(row["high"]):
+        return "no number"
+    off = outside(row, ours.value)
+    if off == 0:
+        return "agrees"
+    return "agrees within our spread" if abs(off) <= np.nan_to_num(ours.spread) else "differs"
 
 
-def table(report, values, runs, path):
-    """Writes and prints report / ours / difference / verdict, and the runs with what they cost.
+def said(row):
+    """The report's value with its reading error, or its range."""
+    low, value, high = row["low"], row["value"], row["high"]
+    if not np.isnan(value):
+        return f"{value:g}" + (f" +- {high - value:.2g}" if high > value else "")
+    if np.isnan(low):
+        return "in words" if np.isnan(high) else f"< {high:g}"
+    return f"{low:g} .. {high:g}" if not np.isnan(high) else f"> {low:g}"
 
-    values: of (case, quantity), nan for a time that a run has not reached; rows of cases that were
-    not run are left out. runs: of a name, words on its parameters and its log.
-    """
-    lines = [("case", "fig.", "quantity", "report", "ours", "diff.", "verdict", "the report says")]
+
+def compare(report, values):
+    """Rows of the table report / ours: all our cases that fit the pattern of the report's case."""
+    table = []
     for row in report:
-        ours = values.get((row["case"], row["quantity"]))
-        if ours is None:
-            continue
-        said, known = row["value"], not np.isnan(row["value"])
-        range_ = f"{row['low']:g} .. {row['high']:g}".replace("nan .. ", "< ").replace(" .. nan", " <")
-        lines.append((row["case"], row["figure"], row["quantity"], f"{said:g}" if known else range_,
-                      f"{ours:.3g}", f"{ours - said:+.2g}" if known else "", verdict(row, ours),
-                      row["words"]))
+        for (case, quantity), ours in values.items():
+            if quantity == row["quantity"] and fnmatchcase(case, row["case"]):
+                table.append(dict(zip(HEADS, (case, row["figure"], quantity.replace("_", " "), said(row),
+                                              *in_words(row, ours), verdict(row, ours), row["words"]))))
+    return table
+
+
+def in_words(row, ours):
+    """Our value with its spread, and its difference from the report's value or range."""
+    if np.isnan(ours.value):
+        return "", ""
+    known = not np.isnan(row["value"])
+    difference = ours.value - row["value"] if known else outside(row, ours.value)
+    spread = "" if not ours.spread > 1e-6 * abs(ours.value) else f" ({ours.spread:.2g})"
+    return f"{ours.value:.3g}{spread}", f"{difference:+.2g}" if known or difference else ""
+
+
+def text_of(rows):
+    """Rows of dicts as text with aligned columns."""
+    lines = [list(rows[0]), *(list(row.values()) for row in rows)]
     widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
-    text = "\n".join("  ".join(w.ljust(n) for w, n in zip(line, widths)).rstrip() for line in lines)
-    text += "\n\n"
-    for name, (words, log) in runs.items():
-        seconds, memory = read_log(log)
-        text += f"{name}: {words}; {seconds:.0f} s, {memory:.0f} MB\n"
-    path.write_text(text)
+    return "".join("  ".join(w.ljust(n) for w, n in zip(line, widths)).rstrip() + "\n" for line in lines)
+
+
+def read_kept(example):
+    """Values by (case, quantity), and rows of runs.csv, that an example has kept."""
+    values = {(row["case"], row["quantity"]): Ours(*(float(row[key] or "nan") for key in ("ours", "spread", "t")))
+              for row in read_csv(example / "results" / "values.csv")}
+    return values, {row["run"]: row for row in read_csv(example / "results" / "runs.csv")}
+
+
+def keep(example, values, runs):
+    """Adds values and runs to those that the example has kept; its whole set."""
+    kept_values, kept_runs = read_kept(example)
+    values, runs = {**kept_values, **values}, {**kept_runs, **{row["run"]: row for row in runs}}
+
+    def number(value, form):
+        return "" if np.isnan(value) else format(value, form)
+
+    write_csv(example / "results" / "values.csv",
+              [{"case": case, "quantity": quantity, "ours": number(ours.value, ".6g"),
+                "spread": number(ours.spread, ".3g"), "t": number(ours.t, "g")}
+               for (case, quantity), ours in sorted(values.items())])
+    write_csv(example / "results" / "runs.csv", [runs[name] for name in sorted(runs)])
+
+
+# ---------------------------------------------------------------------- a plot.py
+
+
+def arguments(words, example):
+    """Command line of a plot.py: folder with the runs, folder for figures and table, whether to keep."""
+    parser = argparse.ArgumentParser(description=words)
+    parser.add_argument("dir", nargs="?", default=".", type=Path, help="folder with the output (default .)")
+    parser.add_argument("--keep", action="store_true",
+                        help="put figures and numbers into the example's folder, in place of DIR")
+    args = parser.parse_args()
+    return args.dir, example if args.keep else args.dir, args.keep
+
+
+def conclude(example, report, values, runs, out, kept):
+    """Prints the table and what the runs cost; writes both to out/compare.txt, or keeps the numbers."""
+    text = text_of(compare(report, values)) + "\n" + text_of(runs)
     print(text, end="")
+    if kept:
+        keep(example, values, runs)
+    else:
+        (out / "compare.txt").write_text(text)

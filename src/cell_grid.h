@@ -27,13 +27,13 @@ class CellGrid {
   // outside its rank's part of the box. Collective.
   void set_up(int reach);
 
-  const std::array<int, 3> n;    // cells of the whole grid
-  const int columns;             // numbers of a cell
-  int lo[3], hi[3];              // cells of this rank, both ends included
-  int first[3], last[3];         // and of those that it has, as its own or as ghosts
-  double spacing[3], inverse_spacing[3], origin[3];
-  bool periodic[3];
-  double cell_volume;    // in two dimensions area
+  const std::array<int, 3> n;         // cells of the whole grid
+  const int columns;                  // numbers of a cell
+  int lo[3] = {}, hi[3] = {};         // cells of this rank, both ends included
+  int first[3] = {}, last[3] = {};    // and of those that it has, as its own or as ghosts
+  double spacing[3] = {}, inverse_spacing[3] = {}, origin[3] = {};
+  bool periodic[3] = {};
+  double cell_volume = 0.0;    // in two dimensions area
 
   double *at(int x, int y, int z)
   {
@@ -93,7 +93,7 @@ class CellGrid {
   Fix *owner;
   int which;
   bool flat;
-  int size[3];
+  int size[3] = {};
   std::unique_ptr<Grid2d> grid2d;
   std::unique_ptr<Grid3d> grid3d;
   std::vector<double> values, out, in;

@@ -8,12 +8,14 @@
 #include "error.h"
 #include "fix.h"
 #include "force.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
 #include "pair_hybrid.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <unordered_map>
@@ -92,6 +94,7 @@ ComputeAggregateContact::~ComputeAggregateContact()
 
 void ComputeAggregateContact::init()
 {
+  contacts_are_old = true;
   if (contact_lists(force->pair).empty())
     error->all(FLERR, Error::NOLASTLINE,
                "Compute aggregate/contact needs a pair style that keeps contacts, such as "
@@ -122,6 +125,17 @@ void ComputeAggregateContact::compute_vector()
 // both outputs, so that the second of them that is asked for costs nothing
 void ComputeAggregateContact::find_aggregates()
 {
+  if (contacts_are_old && update->setupflag)    // not these atoms, or not this decomposition
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Compute aggregate/contact {} is asked for before the first forces of a run, as by a "
+        "variable of fix balance: keep its values for that by fix ave/atom",
+        id);
+  if (update->whichflag == 0 && atoms_have_changed())
+    error->all(FLERR, Error::NOLASTLINE,
+               "Compute aggregate/contact {} is asked for after atoms were moved or renumbered, as "
+               "by write_restart, and before contacts were found again: use run 0 first",
+               id);
   invoked_peratom = invoked_vector = update->ntimestep;
 
   start_labels();
@@ -142,6 +156,26 @@ void ComputeAggregateContact::find_aggregates()
   vector[3] = sum.wall_particles;
   vector[4] = sum.wall_aggregates;
   vector[5] = mean(sum.wall_particles, sum.wall_aggregates);
+}
+
+// Contacts know atoms by their numbers. Between runs commands may give atoms and ghosts others; the
+// pairs of the list then do not overlap as it says. Collective.
+bool ComputeAggregateContact::atoms_have_changed() const
+{
+  constexpr double rounding = 1.0e-6;
+  const int n = atom->nlocal + atom->nghost;
+  int changed = 0;
+  for (const auto *list : contact_lists(force->pair))
+    for (int k = 0; k < list->size() && !changed; k++) {
+      const int i = list->i[k], j = list->j[k];
+      if ((changed = i >= n || j >= n)) break;
+      double d[3];
+      MathExtra::sub3(atom->x[j], atom->x[i], d);
+      const double reach = atom->radius[i] + atom->radius[j];
+      changed = std::fabs(reach - MathExtra::len3(d) - list->overlap(k)) > rounding * reach;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
+  return changed;
 }
 
 // Labels tell the group of ghosts too: their masks are as old as the last re-neighbouring.

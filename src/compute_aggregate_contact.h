@@ -22,6 +22,7 @@ class ComputeAggregateContact : public Compute {
   ComputeAggregateContact(class LAMMPS *, int, char **);
   ~ComputeAggregateContact() override;
   void init() override;
+  void setup() override { contacts_are_old = false; }
   void compute_peratom() override;
   void compute_vector() override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
@@ -53,6 +54,7 @@ class ComputeAggregateContact : public Compute {
     bigint particles, aggregates;              // of aggregates of at least two particles
     bigint wall_particles, wall_aggregates;    // of those that touch a wall
   };
+  bool contacts_are_old = false;    // from the start of a run's setup to its first forces
 
   int nmax;                            // rows of array_atom
   std::vector<Contact> contacts;       // closed contacts and bridges between particles of the group
@@ -66,6 +68,7 @@ class ComputeAggregateContact : public Compute {
   enum { LABEL, CONTACTS } reverse;    // what reverse_comm brings to the owner of an atom
 
   void find_aggregates();
+  bool atoms_have_changed() const;
   void start_labels();
   void gather_contacts();
   void gather_wall_contacts();

@@ -1,13 +1,17 @@
 #include "contact_checks.h"
 
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
-#include "fix.h"
+#include "fix_nve_sphere.h"
+#include "group.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -60,21 +64,54 @@ void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode
                       who, what, mode.name(), kappa, apf::largest_stable_kappa, cure);
 }
 
+namespace {
+  // keyword disc of fix nve/sphere shows in a protected number only
+  struct Discs : FixNVESphere {
+    static bool are_meant_by(Fix *fix)
+    {
+      auto *sphere = dynamic_cast<FixNVESphere *>(fix);
+      return sphere && sphere->*(&Discs::inertia) == 0.5;
+    }
+  };
+}    // namespace
+
 void check_scene(LAMMPS *lmp, const std::string &who, double diameter)
 {
-  if (lmp->comm->me != 0) return;
+  bool filled_later = false;
+  for (const char *inserts : {"^inlet/flow", "^deposit", "^pour"})
+    filled_later |= !lmp->modify->get_fix_by_style(inserts).empty();
+  std::vector<std::string> warnings;
+  for (const auto &fix : lmp->modify->get_fix_list()) {
+    if (!fix->time_integrate) continue;
+    if (Discs::are_meant_by(fix))
+      lmp->error->all(FLERR, Error::NOLASTLINE,
+                      "{}: fix {} {} has keyword disc, but particles are spheres in 2d too, with "
+                      "their moment of inertia; leave disc out",
+                      who, fix->id, fix->style);
+    if (utils::strmatch(fix->style, "^nve$"))
+      warnings.push_back(fmt::format("{}: fix {} has style nve, which does not turn particles; "
+                                     "friction and fluid torque need fix nve/sphere",
+                                     who, fix->id));
+    if (!filled_later && !lmp->group->dynamic[fix->igroup] && lmp->group->count(fix->igroup) == 0)
+      warnings.push_back(fmt::format("{}: fix {} {} moves nothing: its group {} is empty", who,
+                                     fix->id, fix->style, lmp->group->names[fix->igroup]));
+  }
   const double skin = lmp->neighbor->skin;
   const bool looks_ahead = !lmp->modify->get_fix_by_style("^nve/sphere/mts").empty();
   if (diameter > 0.0 && skin > 5.0 * diameter)
-    lmp->error->warning(FLERR,
-                        "{}: the neighbor skin of {:.3g} is {:.3g} diameters of the largest "
-                        "particle; neighbor {:.2g} bin would do",
-                        who, skin, skin / diameter, (looks_ahead ? 1.0 : 0.3) * diameter);
-  for (const auto &fix : lmp->modify->get_fix_by_style("^nve$"))
-    lmp->error->warning(FLERR,
-                        "{}: fix {} has style nve, which does not turn particles; friction and "
-                        "fluid torque need fix nve/sphere",
-                        who, fix->id);
+    warnings.push_back(fmt::format("{}: the neighbor skin of {:.3g} is {:.3g} diameters of the "
+                                   "largest particle; neighbor {:.2g} bin would do",
+                                   who, skin, skin / diameter,
+                                   (looks_ahead ? 1.0 : 0.3) * diameter));
+  const double *box = lmp->domain->prd;
+  const double width =
+      std::min(std::min(box[0], box[1]), lmp->domain->dimension == 2 ? box[0] : box[2]);
+  if (diameter > width)
+    warnings.push_back(fmt::format("{}: the largest particle has a diameter of {:.3g}, the box is "
+                                   "{:.3g} wide; diameters are 1 where no set command gives them",
+                                   who, diameter, width));
+  if (lmp->comm->me == 0)
+    for (const auto &text : warnings) lmp->error->warning(FLERR, text);
 }
 
 }    // namespace LAMMPS_NS

@@ -21,8 +21,9 @@ void check_units(LAMMPS *lmp, const std::string &who);
 // A warning where the step is too large for the stiffest mode, with the step that would do.
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
 
-// Warnings about what a user of granular particles forgets: a skin many particles wide (the default
-// of units si is 1 mm), and integrators that do not turn spheres.
+// What a user of granular particles forgets. Warnings: a skin many particles wide (the default of
+// units si is 1 mm), particles wider than the box (the default diameter is 1), integrators that do
+// not turn spheres or have an empty group. An error: discs. Collective.
 //   diameter   of the largest particle
 void check_scene(LAMMPS *lmp, const std::string &who, double diameter);
 

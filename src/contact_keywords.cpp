@@ -5,6 +5,7 @@
 #include "material_file.h"
 #include "utils.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -123,8 +124,10 @@ bool parse_keyword(Words &words, apf::ContactModel &model)
       model.neck_end = apf::Break::displacement;
     else if (words.is("force"))
       model.neck_end = apf::Break::force;
+    else if (words.is("touch"))
+      model.neck_end = apf::Break::touch;
     else
-      words.refuse_word("break must be displacement or force");
+      words.refuse_word("break must be displacement, force or touch");
     words.skip();
   } else if (words.is("scale_stiffness")) {
     words.skip();
@@ -283,7 +286,7 @@ ContactCoeff ContactCoeff::mixed(const ContactCoeff &i, const ContactCoeff &j)
   c.model.theta_crit = std::sqrt(i.model.theta_crit * j.model.theta_crit);
   if (!c.model.adhesive()) c.model.theta_crit = 0.0;
   c.model.zeta = std::sqrt(i.model.zeta * j.model.zeta);
-  c.model.neck_end = (i.model.neck_end == apf::Break::force) ? i.model.neck_end : j.model.neck_end;
+  c.model.neck_end = std::max(i.model.neck_end, j.model.neck_end);
   c.model.stiffness_scale = std::sqrt(i.model.stiffness_scale * j.model.stiffness_scale);
   return c;
 }
@@ -299,6 +302,7 @@ std::string ContactCoeff::words() const
   if (model.rolling())
     text += fmt::format(" rolling {:.16g} {:.16g}", model.theta_crit, model.zeta);
   if (model.neck_end == apf::Break::force) text += " break force";
+  if (model.neck_end == apf::Break::touch) text += " break touch";
   if (model.stiffness_scale != 1.0)
     text += fmt::format(" scale_stiffness {:.16g}", model.stiffness_scale);
   if (!bridge.present()) return text;

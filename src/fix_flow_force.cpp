@@ -61,7 +61,7 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
   size_vector = n_sums;
   global_freq = 1;
   extvector = 1;
-  peratom_flag = 1;
+  peratom_flag = per_atom;
   size_peratom_cols = static_cast<int>(outputs.size());
   peratom_freq = 1;
   virial_global_flag = virial_peratom_flag = 1;
@@ -69,7 +69,7 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
   pergrid_freq = 1;
   respa_level_support = 1;
 
-  grow_output();
+  if (per_atom) grow_output();
 }
 
 /* ----------------------------------------------------------------------
@@ -78,6 +78,7 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
 
 void FixFlowForce::choose_outputs()
 {
+  if (!per_atom) return;
   const auto &of = block->forces;
   for (const auto &drag : of.force[apf::DRAG]) outputs.push_back(&drag);
   for (const auto &torque : of.torque) outputs.push_back(&torque);
@@ -164,14 +165,17 @@ void FixFlowForce::for_blocks(const std::function<void()> &act)
 void FixFlowForce::post_force(int vflag)
 {
   v_init(vflag);
-  if (atom->nmax > nmax) grow_output();
-  if (sub_stepper) relaxations.assign(atom->nlocal, Relaxation());
+  if (per_atom && atom->nmax > nmax) grow_output();
+  if (sub_stepper) relaxations.resize(atom->nlocal);
   model.step = update->ntimestep;
   model.step_length = update->dt;
   std::fill_n(parts[0], n_sums * apf::sum_parts, 0.0);
   summed = false;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & groupbit)) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (atom->mask[i] & groupbit) continue;
+    if (per_atom) std::fill_n(array_atom[i], size_peratom_cols, 0.0);
+    if (sub_stepper) relaxations[i] = Relaxation();
+  }
 
   if (feedback) {
     if (domain->box_change) feedback->set_up();
@@ -288,7 +292,7 @@ void FixFlowForce::scatter()
   const auto &from = block->forces;
   add_rows(from.given, atom->f);
   if (model.torque) add_rows(from.torque, atom->torque);
-  put_rows(array_atom);
+  if (per_atom) put_rows(array_atom);
 }
 
 /* ----------------------------------------------------------------------

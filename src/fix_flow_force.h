@@ -60,6 +60,7 @@ class FixFlowForce : public FixPerGrid {
   const class FixNVESphereMTS *sub_stepper = nullptr;
   double part = 1.0;    // of a step for which the forces act: half of it at setup
   bool warned = false;
+  bool per_atom = true;    // forces are kept for output
   int nmax = 0;
 
   // a block of particles on its way through the forces

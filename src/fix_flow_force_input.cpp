@@ -37,6 +37,7 @@ void FixFlowForce::parse(int narg, char **arg)
                   {"brownian", 2, &FixFlowForce::parse_brownian},
                   {"cunningham", 1, &FixFlowForce::parse_cunningham},
                   {"concentration", 1, &FixFlowForce::parse_concentration},
+                  {"peratom", 1, &FixFlowForce::parse_switch},
                   {"feedback", 1, &FixFlowForce::parse_feedback}};
   int iarg = 4;
   while (iarg < narg) {
@@ -51,7 +52,7 @@ void FixFlowForce::parse(int narg, char **arg)
     if (!next)
       error->all(FLERR, iarg,
                  "Fix flow/force keyword must be drag, torque, gravity, lift, magnus, added_mass, "
-                 "pressure, brownian, cunningham, concentration or feedback, got {}",
+                 "pressure, brownian, cunningham, concentration, peratom or feedback, got {}",
                  word);
     iarg = next;
   }
@@ -94,6 +95,7 @@ int FixFlowForce::parse_switch(int iarg, int /*narg*/, char **arg)
   bool &which = word == "torque" ? model.torque
       : word == "magnus"         ? model.magnus
       : word == "added_mass"     ? model.added_mass
+      : word == "peratom"        ? per_atom
                                  : model.pressure;
   which = value == "yes";
   return iarg + 2;

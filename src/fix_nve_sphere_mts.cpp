@@ -205,14 +205,19 @@ void FixNVESphereMTS::drift_free()
 // foresaw gives both its bodies a kick as long as it says.
 void FixNVESphereMTS::kick_free(int i, double load_time)
 {
+  const double r = atom->radius[i], time = 0.5 * update->dt;
+  const double linear = 1.0 / atom->rmass[i], angular = 2.5 * linear / (r * r);
+  for (int c = 0; c < 3; c++) {
+    atom->v[i][c] += linear * time * atom->f[i][c];
+    atom->omega[i][c] += angular * time * atom->torque[i][c];
+  }
+  if (!history->bodies().may_have_load(i)) return;
   double load[3] = {}, moment[3] = {};
   history->bodies().add_load_to(i, load, moment);
-  const double r = atom->radius[i], m = atom->rmass[i], time = 0.5 * update->dt;
-  const double angular = 2.5 / (m * r * r), share = contact_share(i);
+  const double more = load_time - time, share = contact_share(i);
   for (int c = 0; c < 3; c++) {
-    const double f = atom->f[i][c], torque = atom->torque[i][c];
-    atom->v[i][c] += (time * f - (time - load_time) * share * load[c]) / m;
-    atom->omega[i][c] += angular * (time * (torque - moment[c]) + load_time * moment[c]);
+    atom->v[i][c] += linear * more * share * load[c];
+    atom->omega[i][c] += angular * more * moment[c];
   }
 }
 
@@ -259,6 +264,7 @@ template <class Row> void FixNVESphereMTS::sub_step_active()
   kicks.reserve(active_now);
   for (int i = 0; i < atom->nlocal; i++) {
     if (foresight.free(i)) continue;
+    bodies.touch(i);    // also by contacts of its images
     bodies.place(i, atom->x[i]);
     bodies.set_motion(i, atom->v[i], atom->omega[i]);
     if (!(atom->mask[i] & groupbit)) {

@@ -129,7 +129,8 @@ void FixNVESphereMTS::init()
   foresight.init(history, keepers);
 
   for (const auto &fix : modify->get_fix_list())
-    if (utils::strmatch(fix->style, "^(set|ave)force") && comm->me == 0)
+    if (comm->me == 0 &&
+        (utils::strmatch(fix->style, "^setforce") || utils::strmatch(fix->style, "^aveforce")))
       error->warning(FLERR,
                      "{} {}: fix {} {} does not hold particles against their contacts; use fix "
                      "freeze, or leave them out of the group of fix {}",

@@ -16,6 +16,8 @@ FixStyle(wall/levelset,FixWallLevelset);
 #include "wall_motion.h"
 #include "wall_surfaces.h"
 
+#include "wall/clearances.h"
+
 #include <memory>
 
 namespace LAMMPS_NS {
@@ -70,6 +72,7 @@ class FixWallLevelset : public FixContacts {
   void set_global_state(const double *) override;
 
  private:
+  static constexpr const char *command = "Fix wall/levelset";
   std::vector<apf::Surface> surfaces;
   std::unique_ptr<WallGrid> grid;    // where surfaces come from a file
   WallMotion motion;
@@ -82,8 +85,10 @@ class FixWallLevelset : public FixContacts {
   // One contact = one particle at one surface. Rows 2k and 2k+1 of `rows` are a copy of the
   // particle and its foot point on the wall, a body without radius.
   apf::ContactList contacts;
-  std::vector<int> surface_of;      // surface of each contact; its atom is contacts.source
-  std::vector<unsigned> touched;    // per atom: bit s set if it is in contact with surface s
+  std::vector<int> surface_of;       // surface of each contact; its atom is contacts.source
+  std::vector<double> turning_of;    // of each contact: how its normal turns, see ContactBodies
+  std::vector<unsigned> touched;     // per atom: bit s set if it is in contact with surface s
+  apf::Clearances clearances;        // per atom, of the surfaces that it does not touch
   apf::Bodies rows;
   struct Near {
     int i, surface;
@@ -102,8 +107,8 @@ class FixWallLevelset : public FixContacts {
   bool rebuild = true;
   class FixContactHistory *lender = nullptr;    // has the particles' rows already: pair's fix
   class Fix *rigid = nullptr;
-  double captured = 0.0, detached = 0.0;    // contacts begun and ended, of this rank
-  WallLedger ledger{lmp, surfaces};         // force and torque on zones of the wall
+  double captured = 0.0, detached = 0.0;            // contacts begun and ended, of this rank
+  WallLedger ledger{lmp, surfaces, motion.pose};    // force and torque on zones of the wall
   double all_loads[12] = {};    // the same over all ranks, contacts, begun, ended, bridges, liquid
   bool loads_summed = false, settled = false;
   std::unique_ptr<ComputeAggregateContact> aggregates;
@@ -113,15 +118,24 @@ class FixWallLevelset : public FixContacts {
   apf::Bodies &particles();
   void find_again();
   void detect();
+  void look_around(int i, const double *y);
   void touch(int i, int surface);
-  apf::Foot foot_of(int surface, const double *x) const;
+  const double *in_frame(const double *x, double *y) const;
+  apf::Foot foot_of(int surface, const double *x, double *kappa = nullptr) const;
   bool farther(int surface, const double *x, double than) const;
+  bool far_from_all(int i, double than) const;
+  struct Nearest {
+    int surface;
+    double distance;
+  };
+  Nearest nearest(const double *x, Marks of_surfaces) const;
+  void check_particles();
   void check_reach(double smallest);
   void check_grid(double smallest, double largest);
-  void follow_curvature();
   double speed_near(const double *x) const;    // of the wall, if it reached there
   apf::Approach approach_of(int i, const apf::Foot &);
   void close(int i, int surface, const apf::ContactHistory &);
+  apf::ContactBodies bodies_of(int i, int surface) const;
   apf::ContactBodies bodies_of(int i, int surface, const double *x) const;
   double crowding(int i) const;
   void share_masses();
@@ -130,8 +144,10 @@ class FixWallLevelset : public FixContacts {
   void remove_ended(bool in_sub_step);
   int zone_of(int i, int surface);
   Marks zones_of(int i);
-  void gather();
+  void gather(bool follow = false);
+  void turn_on(int k, double turning);
   void copy_rows(apf::Bodies &, int k, int i, int surface);
+  void copy_rows(apf::Bodies &, int k, int i, const apf::Foot &);
   int add_forces(const apf::ContactTimes &, int made);
   void add_due();
   void return_loads(const apf::Bodies &, const std::vector<int> &atoms);

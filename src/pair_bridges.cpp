@@ -1,6 +1,7 @@
 #include "pair_bridges.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "fix_contact_history.h"
 #include "force.h"
 #include "pair_granular_adhesive.h"
@@ -11,9 +12,19 @@
 
 using namespace LAMMPS_NS;
 
-static uint64_t key(int i, int j)
+/* ---------------------------------------------------------------------- */
+
+void PairBridges::init()
 {
-  return (static_cast<uint64_t>(i) << 32) | static_cast<uint32_t>(j);
+  list.kinds.forget();
+  choice = apf::BridgeChoice();
+  choice.planar = domain->dimension == 2;
+}
+
+void PairBridges::include(const apf::BridgeModel &model)
+{
+  choice.include(model);
+  kernel = apf::bridge_kernel(choice);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -31,7 +42,7 @@ void PairBridges::add_candidate(int i, int j)
   unsettled.push_back(0);
   const auto *memory = store->find_bridge(i, atom->tag[j]);
   if (!memory) return;
-  list.add(i, j, k, constants_of(i, j, memory->volume()), *memory, false);
+  list.add(i, j, k, number_of_kind(i, j), *memory, false);
   meetings.closed[k] = 1;
   store->count_anew();
 }
@@ -49,10 +60,11 @@ double PairBridges::forming_distance(int i, int j) const
   return ri + rj + film(i, ri) + film(j, rj);
 }
 
-apf::BridgeConstants PairBridges::constants_of(int i, int j, double volume) const
+int PairBridges::number_of_kind(int i, int j)
 {
-  return apf::BridgeConstants::make(pair->coeff_of(i, j).bridge, pair->bodies_of(i, j, 1.0, 1.0),
-                                    volume);
+  const auto &coeff = pair->coeff_of(i, j);
+  return list.kinds.find(pair->law_of(i, j), apf::WetContact{coeff.bridge, coeff.model},
+                         pair->bodies_of(i, j, 1.0, 1.0));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -79,14 +91,14 @@ void PairBridges::form(int k, const apf::Approach &approach, double step)
   const double moved = step * approach.closing_speed;
   const double gap = meetings.touch[k] - atom->radius[i] - atom->radius[j];
   if (moved > 0.0 && -approach.gap <= moved) memory.formed = gap;    // else it was there before
-  const auto constants = constants_of(i, j, memory.volume());
-  if (gap >= constants.rupture) return;    // so little liquid that the bridge would not hold
-  if (pair->coeff_of(i, j).bridge.inventory()) {
+  const auto &model = pair->coeff_of(i, j).bridge;
+  if (gap >= model.rupture_at_rest(memory.volume())) return;    // so little that it would not hold
+  if (model.inventory()) {
     store->take_liquid(i, memory.volume_i);
     store->take_liquid(j, memory.volume_j);
     unsettled[k] = 1;
   }
-  const int added = list.add(i, j, k, constants, memory, true);
+  const int added = list.add(i, j, k, number_of_kind(i, j), memory, true);
   const auto bodies = pair->bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0);
   list.set_mass(added, bodies.m / bodies.crowding);
   meetings.closed[k] = 1;
@@ -118,26 +130,12 @@ apf::BridgeMemory PairBridges::intake(int i, int j) const
 int PairBridges::add_forces(apf::Bodies &bodies, const apf::ContactTimes &times,
                             apf::BridgeParts *to)
 {
-  int ended = 0;
-  bodies.with_rows([&](auto *rows) {
-    ended = list.add_forces(
-        rows, times,
-        [&](int k, double overlap, double closing_speed) {
-          return force_of_contact(k, overlap, closing_speed);
-        },
-        store->due, to);
-  });
-  return ended;
-}
-
-// of the dry contact that bridge k has beside it, > 0 repels
-double PairBridges::force_of_contact(int k, double overlap, double closing_speed) const
-{
-  if (!pair->is_closed(list.source[k])) return 0.0;
-  const auto &c = pair->kind_of(list.i[k], list.j[k]).constants;
-  if (overlap < c.break_overlap) return 0.0;
-  return apf::force_at(c, apf::jkr_root(overlap, c.inv_R, c.neck), closing_speed,
-                       store->times().step);
+  for (int b = 0; b < list.size(); b++) {
+    list.set_touching(b, pair->is_closed(list.source[b]));
+    bodies.touch(list.i[b]);
+    bodies.touch(list.j[b]);
+  }
+  return apf::add_bridge_forces(kernel, list, bodies, times, store->due, to);
 }
 
 void PairBridges::remove_ruptured(bool in_sub_step)
@@ -212,7 +210,7 @@ void PairBridges::find_stiffest(apf::Stiffest &stiffest)
       const int i = meetings.i[k], j = meetings.j[k];
       const double volume = intake(i, j).volume();
       if (volume == 0.0) continue;
-      const auto mode = apf::capillary_mode(constants_of(i, j, volume));
+      const auto mode = apf::capillary_mode(list.constants(number_of_kind(i, j), volume));
       stiffest.include_near(mode, apf::Approach::of(rows[i], rows[j], meetings.touch[k]));
     }
   });
@@ -234,7 +232,7 @@ void PairBridges::settle()
     auto memory = list.memory(b);
     memory.volume_i *= share_i;
     memory.volume_j *= share_j;
-    list.refill(b, constants_of(i, j, memory.volume()), memory);
+    list.refill(b, memory);
   }
   for (int k = 0; k < meetings.size(); k++)
     meetings.touch[k] = forming_distance(meetings.i[k], meetings.j[k]);
@@ -254,20 +252,7 @@ void PairBridges::fill_new_atoms()
 void PairBridges::evaluate(const apf::ContactTimes &times)
 {
   parts.resize(list.size());
-  number_of.clear();
   auto bodies = store->bodies();    // a copy: loads stay as they are
   add_forces(bodies, times, parts.data());
-  for (int b = 0; b < list.size(); b++) number_of[key(list.i[b], list.j[b])] = b;
-}
-
-const apf::BridgeParts *PairBridges::part_of(int i, int j) const
-{
-  const auto found = number_of.find(key(i, j));
-  return found == number_of.end() ? nullptr : &parts[found->second];
-}
-
-double PairBridges::volume_of(int i, int j) const
-{
-  const auto found = number_of.find(key(i, j));
-  return found == number_of.end() ? 0.0 : list.memory(found->second).volume();
+  number_of.number(list);
 }

@@ -4,11 +4,11 @@
 #ifndef APF_PAIR_BRIDGES_H
 #define APF_PAIR_BRIDGES_H
 
-#include "contact/bridge_list.h"
+#include "contact/bridge_kernel.h"
 #include "contact/candidates.h"
+#include "pair_index.h"
 #include "pointers.h"
 
-#include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -18,6 +18,8 @@ class PairBridges : protected Pointers {
   PairBridges(class LAMMPS *lmp, class PairGranularAdhesive *style) : Pointers(lmp), pair(style) {}
 
   void serve(class FixContactHistory *fix) { store = fix; }
+  void init();                               // no laws yet
+  void include(const apf::BridgeModel &);    // a law that some pair of types has
 
   // a new neighbour list: its pairs one after another, in the order of the pair style's candidates
   void begin_list();
@@ -41,10 +43,8 @@ class PairBridges : protected Pointers {
   void fill_new_atoms();
 
   const apf::BridgeList &all() const { return list; }
-  // parts of all bridges as they are now, by row of the two atoms; nullptr where there is none
-  void evaluate(const apf::ContactTimes &);
-  const apf::BridgeParts *part_of(int i, int j) const;
-  double volume_of(int i, int j) const;
+  void evaluate(const apf::ContactTimes &);    // parts of all bridges as they are now
+  PairIndex::Found find(int i, int j) const { return number_of.find(i, j); }
   std::vector<apf::BridgeParts> parts;
 
   double memory_usage() const { return list.memory_usage() + meetings.memory_usage(); }
@@ -53,15 +53,16 @@ class PairBridges : protected Pointers {
   class PairGranularAdhesive *pair;
   class FixContactHistory *store = nullptr;
   apf::BridgeList list;
+  apf::BridgeChoice choice;
+  apf::BridgeKernel kernel = nullptr;
   apf::Candidates meetings;       // pairs with the distance at which they are joined
   std::vector<char> unsettled;    // of each pair: its bridge has formed since liquid was settled
-  std::unordered_map<uint64_t, int> number_of;    // by rows, for part_of()
+  PairIndex number_of;
 
   double forming_distance(int i, int j) const;
   apf::BridgeMemory intake(int i, int j) const;
   void form(int k, const apf::Approach &, double step);
-  apf::BridgeConstants constants_of(int i, int j, double volume) const;
-  double force_of_contact(int k, double overlap, double closing_speed) const;
+  int number_of_kind(int i, int j);    // in list.kinds
 };
 
 }    // namespace LAMMPS_NS

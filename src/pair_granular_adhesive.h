@@ -13,9 +13,10 @@ PairStyle(granular/adhesive,PairGranularAdhesive);
 #include "contact/contact_kernel.h"
 #include "contact_keywords.h"
 #include "pair_bridges.h"
+#include "pair_index.h"
 #include "type_sizes.h"
 
-#include <unordered_map>
+#include <initializer_list>
 
 namespace LAMMPS_NS {
 
@@ -61,7 +62,7 @@ class PairGranularAdhesive : public Pair {
   // for its bridges; of two atoms, or of a candidate
   const ContactCoeff &coeff_of(int i, int j) const;
   apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
-  const apf::ContactKind &kind_of(int i, int j) { return contacts.kinds[number_of_kind(i, j)]; }
+  int law_of(int i, int j) const;    // number of the coefficient
   bool is_closed(int candidate) const { return candidates.closed[candidate]; }
 
  private:
@@ -84,22 +85,30 @@ class PairGranularAdhesive : public Pair {
   std::vector<double> mass_rigid;    // of the body an atom belongs to, 0 if none
   TypeSizes sizes;
 
+  // values per pair that single() offers; energies by part that compute pair offers
+  static constexpr int n_contact_parts = 11, n_parts = n_contact_parts + 6;
+  static constexpr int bridge_energy = 4, n_energies = 5;
+
   // parts of all contacts at one timestep, for single()
   std::vector<apf::ContactParts> parts;
-  std::unordered_map<uint64_t, int> index_of_pair;
+  PairIndex index_of_pair;
   bigint parts_step = -1;
 
   void allocate();
+  void find_special_bodies();
   void find_rigid_masses();
   void build_candidates();
   void detect(bool all, double step);
   void close(int candidate, const apf::ContactHistory &);
   int number_of_kind(int i, int j);    // in contacts.kinds
+  const apf::ContactKind &kind_of(int i, int j) { return contacts.kinds[number_of_kind(i, j)]; }
   void share_masses();
   void correct_ends(double step);
   double init_bridge(int i, int j, double ri, double rj);
   void remove_ended(bool in_sub_step);
   void tally(int eflag);
+  void tally_pair(int i, int j, int eflag, const double (&f)[3], int first,
+                  std::initializer_list<double> energies);
   void evaluate_parts();
   double single_contact(int i, int j, double rsq, double &fforce);
   double single_bridge(int i, int j, double rsq, double &fforce);

@@ -25,13 +25,21 @@ void WallBridges::parse_film(const char *command, int narg, char **arg, int &iar
     error->all(FLERR, iarg + 1, "{} film must be >= 0, got {}", command, arg[iarg + 1]);
   if (!wall->coefficient.bridge.inventory())
     error->all(FLERR, iarg, "{} film needs a law with keyword inventory", command);
-  if (domain->dimension == 2) error->all(FLERR, iarg, "{} film is for three dimensions", command);
+  if (domain->dimension == 2)
+    error->all(FLERR, iarg,
+               "{} film is for three dimensions: a wall in the plane has a length, of which a "
+               "thickness makes no volume",
+               command);
   iarg += 2;
 }
 
 void WallBridges::init()
 {
   const auto &model = wall->coefficient.bridge;
+  apf::BridgeChoice choice;
+  choice.planar = rows.planar();
+  choice.include(model);
+  kernel = apf::bridge_kernel(choice);
   if (model.inventory() && !(wall->lender && wall->lender->keeps_liquid()))
     error->all(FLERR, Error::NOLASTLINE,
                "Fix wall/levelset {} keyword inventory needs a pair style granular/adhesive with "
@@ -114,19 +122,20 @@ double WallBridges::forming_distance(int i, double film) const
       apf::film_thickness(r, model.inventory() ? wall->lender->liquid(i) : model.liquid_of(r));
 }
 
-apf::BridgeConstants WallBridges::constants_of(int i, int surface, double volume) const
+int WallBridges::number_of_kind(int i, int surface)
 {
-  return apf::BridgeConstants::make(wall->coefficient.bridge,
-                                    wall->bodies_of(i, surface, atom->x[i]), volume);
+  const auto &law = wall->coefficient;
+  return list.kinds.find(surface, apf::WetContact{law.bridge, law.model},
+                         wall->bodies_of(i, surface, atom->x[i]));
 }
 
 void WallBridges::add(int i, int surface, const apf::BridgeMemory &memory, bool is_new)
 {
-  const int b = list.add(0, 0, i, constants_of(i, surface, memory.volume()), memory, is_new);
+  const int b = list.add(0, 0, i, number_of_kind(i, surface), memory, is_new);
   surface_of.push_back(surface);
   unsettled.push_back(is_new && wall->coefficient.bridge.inventory());
   joined[i] |= 1u << surface;
-  list.set_mass(b, list.constants(b).m / (wall->crowding(i) + 1.0));
+  list.set_mass(b, list.mass_alone(b) / (wall->crowding(i) + 1.0));
   wall->count_anew();
 }
 
@@ -182,33 +191,14 @@ void WallBridges::gather()
 int WallBridges::add_forces(const apf::ContactTimes &times, std::vector<apf::DueLoad> &due)
 {
   gather();
-  int ended = 0;
+  for (int b = 0; b < size(); b++)
+    list.set_touching(b, wall->touched[list.source[b]] >> surface_of[b] & 1);
   std::vector<apf::DueLoad> of_rows;
-  rows.with_rows([&](auto *r) {
-    ended = list.add_forces(
-        r, times,
-        [&](int b, double overlap, double closing_speed) {
-          return force_of_contact(b, overlap, closing_speed);
-        },
-        of_rows);
-  });
+  const int ended = apf::add_bridge_forces(kernel, list, rows, times, of_rows);
   for (const auto &load : of_rows)
     if (load.row % 2 == 0)
       due.push_back({list.source[load.row / 2], {load.f[0], load.f[1], load.f[2]}});
   return ended;
-}
-
-// of the dry contact beside bridge b, > 0 repels
-double WallBridges::force_of_contact(int b, double overlap, double closing_speed) const
-{
-  const int i = list.source[b], s = surface_of[b];
-  if (!(wall->touched[i] >> s & 1)) return 0.0;
-  auto &kinds = wall->contacts.kinds;
-  const auto &c =
-      kinds.constants(kinds.find(s, wall->coefficient.model, wall->bodies_of(i, s, atom->x[i])));
-  if (overlap < c.break_overlap) return 0.0;
-  const double step = (wall->lender ? wall->lender->times() : wall->times()).step;
-  return apf::force_at(c, apf::jkr_root(overlap, c.inv_R, c.neck), closing_speed, step);
 }
 
 void WallBridges::remove_ruptured(bool in_sub_step)
@@ -242,22 +232,14 @@ void WallBridges::remove_ruptured(bool in_sub_step)
 void WallBridges::share_masses()
 {
   for (int b = 0; b < size(); b++)
-    list.set_mass(b, list.constants(b).m / wall->crowding(list.source[b]));
+    list.set_mass(b, list.mass_alone(b) / wall->crowding(list.source[b]));
 }
 
 double WallBridges::energy()
 {
   gather();
   std::vector<apf::BridgeParts> parts(size());
-  std::vector<apf::DueLoad> none;
-  rows.with_rows([&](auto *r) {
-    list.add_forces(
-        r, {0.0, 0.0, 0.0},
-        [](int, double, double) {
-          return 0.0;
-        },
-        none, parts.data());
-  });
+  kernel(list, rows, {0.0, 0.0, 0.0}, parts.data());
   double sum = 0.0;
   for (const auto &part : parts) sum += part.energy;
   return sum;
@@ -337,7 +319,8 @@ void WallBridges::find_stiffest(apf::Stiffest &stiffest)
   for (const auto &place : near) {
     const double volume = intake(place.i, place.surface).volume();
     if (volume == 0.0) continue;
-    const auto mode = apf::capillary_mode(constants_of(place.i, place.surface, volume));
+    const int kind = number_of_kind(place.i, place.surface);
+    const auto mode = apf::capillary_mode(list.constants(kind, volume));
     auto approach = wall->approach_of(place.i, wall->foot_of(place.surface, atom->x[place.i]));
     approach.gap = place.gap;
     stiffest.include_near(mode, approach);
@@ -349,10 +332,9 @@ void WallBridges::settle()
   for (int b = 0; b < size(); b++) {
     if (!unsettled[b]) continue;
     unsettled[b] = 0;
-    const int i = list.source[b];
     auto memory = list.memory(b);
-    memory.volume_i *= wall->lender->granted(i);
-    list.refill(b, constants_of(i, surface_of[b], memory.volume()), memory);
+    memory.volume_i *= wall->lender->granted(list.source[b]);
+    list.refill(b, memory);
   }
 }
 

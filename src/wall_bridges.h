@@ -3,7 +3,7 @@
 #ifndef APF_WALL_BRIDGES_H
 #define APF_WALL_BRIDGES_H
 
-#include "contact/bridge_list.h"
+#include "contact/bridge_kernel.h"
 #include "pointers.h"
 
 #include <vector>
@@ -54,7 +54,8 @@ class WallBridges : protected Pointers {
 
  private:
   class FixWallLevelset *wall;
-  apf::BridgeList list;            // source: the atom
+  apf::BridgeList list;    // source: the atom
+  apf::BridgeKernel kernel = nullptr;
   std::vector<int> surface_of;     // of each bridge
   std::vector<char> unsettled;     // of each bridge: formed since liquid was settled
   std::vector<unsigned> joined;    // per atom: bit s set if a bridge joins it to surface s
@@ -75,9 +76,8 @@ class WallBridges : protected Pointers {
   double forming_distance(int i, double film) const;    // of the centre to the wall
   apf::BridgeMemory intake(int i, int surface) const;
   void try_to_form(int i, int surface, double step);
-  apf::BridgeConstants constants_of(int i, int surface, double volume) const;
+  int number_of_kind(int i, int surface);    // in list.kinds
   void add(int i, int surface, const apf::BridgeMemory &, bool is_new);
-  double force_of_contact(int b, double overlap, double closing_speed) const;
   void gather();
 };
 

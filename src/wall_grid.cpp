@@ -14,7 +14,7 @@
 using namespace LAMMPS_NS;
 
 static const std::string prefix = "distance_";
-static constexpr double crease = 0.1;      // largest deviation of the slope's size from 1
+static constexpr double crease = 0.02;     // largest deviation of the slope's size from 1
 static constexpr double flat = 1.0e-6;     // curvature that is rounding, in the same units
 static constexpr double uniform = 0.02;    // spread of a curvature that counts as the same, in
                                            // units of the inverse radius of the largest particle
@@ -31,13 +31,15 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
   size = apf::GridDistance::size(lattice);
   allocate(size * pieces.size());
   reaches.assign(pieces.size(), -std::numeric_limits<double>::infinity());
+  jumps.assign(pieces.size(), {});
   for (size_t n = 0; n < pieces.size(); n++)
     attempt([&] {
       const auto nodes = nodes_of(file->read(pieces[n], 1, 0, layers()), 1);
-      apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
+      jumps[n] = apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
       reaches[n] = *std::max_element(nodes.begin(), nodes.end());
     });
   MPI_Allreduce(MPI_IN_PLACE, reaches.data(), reaches.size(), MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, jumps.data(), 3 * jumps.size(), MPI_DOUBLE, MPI_MAX, world);
   file.reset();
   position = Error::NOLASTLINE;
 }
@@ -81,8 +83,8 @@ std::vector<apf::Surface> WallGrid::surfaces() const
 {
   std::vector<apf::Surface> all;
   for (size_t n = 0; n < pieces.size(); n++)
-    all.push_back(
-        apf::Surface::gridded(apf::GridDistance(lattice, numbers.data() + n * size), reaches[n]));
+    all.push_back(apf::Surface::gridded(
+        apf::GridDistance(lattice, numbers.data() + n * size, jumps[n]), reaches[n]));
   return all;
 }
 
@@ -159,12 +161,26 @@ static bool has_no_area(const std::array<double, 3> *corners, double least)
   return 0.5 * MathExtra::len3(normal) <= least;
 }
 
+const std::vector<WallGrid::Facet> &WallGrid::facets(int piece) const
+{
+  cut.resize(pieces.size());
+  if (cut[piece].empty()) cut[piece] = cut_facets(piece);
+  return cut[piece];
+}
+
+double WallGrid::memory_usage() const
+{
+  double bytes = numbers.bytes();
+  for (const auto &of_piece : cut) bytes += of_piece.capacity() * sizeof(Facet);
+  return bytes;
+}
+
 /* ----------------------------------------------------------------------
    A piece's field goes on beyond the rim of the piece, behind the other pieces: what is there is
    not part of the wall.
 ------------------------------------------------------------------------- */
 
-std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
+std::vector<WallGrid::Facet> WallGrid::cut_facets(int piece) const
 {
   std::vector<Facet> all;
   const auto fields = surfaces();
@@ -172,10 +188,8 @@ std::vector<WallGrid::Facet> WallGrid::facets(int piece) const
   std::vector<double> values(lattice.nodes());
   const double spacing = *std::min_element(lattice.spacing, lattice.spacing + lattice.dims);
   for_each_node(lattice, [&](int i, int j, int k, std::size_t node) {
-    const int index[3] = {i, j, k};
-    double x[3] = {};
-    for (int axis = 0; axis < lattice.dims; axis++)
-      x[axis] = lattice.origin[axis] + index[axis] * lattice.spacing[axis];
+    double x[3];
+    lattice.position(i, j, k, x);
     const double distance = field.grid.distance(x);
     // a wall along the border of the grid has no nodes behind it: those on it stand for them
     const double least = on_wall * spacing;

@@ -26,17 +26,22 @@ class WallGrid : public GridFile {
   void check(std::vector<apf::Surface> &, double smallest, double largest, double error) const;
 
   // A piece in triangles, in the plane in lines whose last two points are the same; for pictures
-  // and areas.
+  // and areas. Cut when they are first asked for; where the wall moves they stay in its frame.
   using Facet = std::array<std::array<double, 3>, 3>;
-  std::vector<Facet> facets(int piece) const;
+  const std::vector<Facet> &facets(int piece) const;
 
-  double memory_usage() const { return numbers.bytes(); }
+  bool is_periodic(int axis) const { return lattice.periodic[axis]; }
+  double memory_usage() const;
 
  private:
   std::vector<std::string> pieces;
-  std::size_t size = 0;           // numbers of a piece
-  std::vector<double> reaches;    // largest number of each
+  std::size_t size = 0;                             // numbers of a piece
+  std::vector<double> reaches;                      // largest number of each
+  std::vector<apf::GridDistance::PerAxis> jumps;    // of each, see GridDistance
 
+  mutable std::vector<std::vector<Facet>> cut;    // facets of each piece, once they were asked for
+
+  std::vector<Facet> cut_facets(int piece) const;
   void choose(const std::vector<std::string> &wanted, int most);
 };
 

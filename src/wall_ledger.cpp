@@ -216,7 +216,7 @@ double WallLedger::area(int row)
   const std::array<double, 9> box = {domain->boxlo[0], domain->boxlo[1], domain->boxlo[2],
                                      domain->boxhi[0], domain->boxhi[1], domain->boxhi[2],
                                      domain->xy,       domain->xz,       domain->yz};
-  const bool moved = regions_move && measured_step != update->ntimestep;
+  const bool moved = (regions_move || pose.moves) && measured_step != update->ntimestep;
   if (areas.empty() || moved || box != measured_box) measure_areas();
   measured_box = box;
   measured_step = update->ntimestep;
@@ -231,9 +231,9 @@ void WallLedger::measure_areas()
       return zone_of(s, x);
     };
     if (from_file)
-      add_zone_areas(from_file->facets(s), domain, zone_at, areas);
+      add_zone_areas(*from_file, s, pose, domain, zone_at, areas);
     else
-      add_zone_areas(surfaces[s], domain, only_zone[s], zone_at, areas);
+      add_zone_areas(surfaces[s], pose, domain, only_zone[s], zone_at, areas);
   }
   for (int z = 0; z < n_zones(); z++) areas.back() += areas[z];
 }

@@ -8,6 +8,7 @@
 #include "wall_grid.h"
 
 #include "wall/surface.h"
+#include "wall/wall_pose.h"
 
 #include <array>
 #include <cstdint>
@@ -43,8 +44,8 @@ class WallLedger : protected Pointers {
     N_COLUMNS
   };
 
-  WallLedger(LAMMPS *lmp, const std::vector<apf::Surface> &surfaces) :
-      Pointers(lmp), surfaces(surfaces)
+  WallLedger(LAMMPS *lmp, const std::vector<apf::Surface> &surfaces, const apf::WallPose &pose) :
+      Pointers(lmp), surfaces(surfaces), pose(pose)
   {
   }
 
@@ -101,6 +102,7 @@ class WallLedger : protected Pointers {
   using Row = std::array<double, N_COLUMNS>;
 
   const std::vector<apf::Surface> &surfaces;
+  const apf::WallPose &pose;
   const WallGrid *from_file = nullptr;
   std::string of_surfaces;    // their names
   std::vector<Zone> zones;

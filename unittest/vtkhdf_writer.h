@@ -17,9 +17,9 @@ class VtkhdfWriter {
   using Counts = std::array<int, 3>;
 
   VtkhdfWriter(const std::string &path, Counts nodes, Triple origin, Triple spacing) :
-      n(nodes), o(origin), h(spacing)
+      n(nodes), o(origin), h(spacing),
+      file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT))
   {
-    file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
     root = H5Gcreate2(file, "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     points = H5Gcreate2(root, "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     text("Type", "ImageData");

@@ -4,6 +4,8 @@
 #
 #   sphinx-build -D html_math_renderer=mathjax -D mathjax_path=FOLDER/MathJax.js ...
 
+from pathlib import Path
+
 from docutils import nodes
 from docutils.utils.math import latex2mathml
 
@@ -14,6 +16,11 @@ extensions = ["sphinx.ext.mathjax"]
 root_doc = "index"
 nitpicky = True
 highlight_language = "none"
+
+# cmake --build BUILD --target man: apf.7 is all pages in one, and each page by itself
+pages = sorted(path.stem for path in Path(__file__).parent.glob("*.rst"))
+man_pages = [("index", "apf", "adhesive particle flow for LAMMPS", "", 7)]
+man_pages += [(page, "apf-" + page, "page of APF", "", 7) for page in pages if page != "index"]
 
 html_theme = "alabaster"
 html_theme_options = {

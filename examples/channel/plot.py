@@ -1,47 +1,26 @@
 #!/usr/bin/python3
 """Draws the report's figures from what in.channel wrote, and puts our numbers beside the report's.
 
-    plot.py [DIR]      DIR holds channel-phi*.aggregates, .profiles, .overlaps, .*.png (default .)
+    plot.py [DIR] [--keep]    DIR holds channel-phi*.aggregates, .profiles, .overlaps, .*.png (default .)
 
 Writes figure09.png, figure10.png, figure12.png, figure13.png, overlaps.png and compare.txt to DIR.
 Any number of phi will do. The report's numbers and their reading errors are in report.csv.
-Needs Debian's python3-numpy and python3-matplotlib.
 """
-import argparse
-import csv
 import re
 import sys
 import textwrap
-from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 
 HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent))
+from report import Ours, Run, arguments, conclude, read_report, read_runs, stop
+
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#000000"]
 DASHES = ["-", "--", "-.", (0, (1, 1.2))]
-QUANTITIES = {
-    "in_aggregates": "particles in aggregates / all",
-    "aggregates": "number of aggregates",
-    "mean_size": "mean aggregate size",
-    "wall_in_aggregates": "particles in wall aggregates / all",
-    "wall_aggregates": "number of wall aggregates",
-    "wall_mean_size": "mean wall aggregate size",
-    "mean_size/wall_mean_size": "mean size, all / wall",
-    "centre": "c / mean c, |y| < 0.1 L",
-    "at_wall": "c / mean c, outermost 0.01 L",
-    "still_layer": "layer with v < 0.05 U [L]",
-}
-
-
-def stop(path, reason):
-    """Ends with exit code 1 and a message that names the file."""
-    sys.exit(f"plot.py: {path}: {reason}")
 
 
 # ---------------------------------------------------------------------- reading
@@ -49,77 +28,28 @@ def stop(path, reason):
 
 def read_input():
     """Numbers of in.channel, in SI: dict of its literal variables, and the words after `amap`."""
-    path = HERE / "in.channel"
-    if not path.is_file():
-        stop(path, "missing; plot.py takes L, U and d from it")
-    text = path.read_text()
+    text = (HERE / "in.channel").read_text()
     found = re.findall(r"^variable +(\w+) +(?:equal|index) +(\d[\d.]*(?:e[+-]?\d+)?)\s", text, re.M)
     return {name: float(value) for name, value in found}, re.search(r"amap (.*)", text)[1].split()
 
 
-def read_report():
-    """Rows of report.csv as dicts; low, value, high are floats, nan where the report has none."""
-    with open(HERE / "report.csv", encoding="ascii") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    for row in rows:
-        row.update({key: float(row[key] or "nan") for key in ("low", "value", "high")})
-    return rows
+class Channel(Run):
+    """One run. Times in L/U, y in L, v in U, c as area fraction, overlaps in r."""
 
-
-def read_rows(path):
-    """Rows of numbers of a file that LAMMPS's fix ave/* wrote."""
-    if not path.is_file():
-        stop(path, "missing; in.channel writes it")
-    text = path.read_text()
-    if not text.endswith("\n"):
-        stop(path, "its last line is cut off; was the run killed, or is it writing?")
-    try:
-        return [[float(word) for word in line.split()]
-                for line in text.splitlines() if not line.startswith("#")]
-    except ValueError as error:
-        stop(path, f"not a number: {error}")
-
-
-def read_history(path):
-    """Aggregates over time: dict of arrays, named as in the file's second line; t in L/U."""
-    rows = read_rows(path)
-    if len(rows) < 2:
-        stop(path, "holds no time after t = 0 yet")
-    header = path.read_text().splitlines()[1]
-    names = [name.split("[")[0] for name in header.lstrip("# ").split()]
-    for row in rows:
-        if len(row) != len(names):
-            stop(path, f"step {row[0]:.0f} has {len(row)} of {len(names)} columns")
-    return dict(zip(names, np.array(rows).T))
-
-
-def read_blocks(path, columns):
-    """Blocks of fix ave/chunk or fix ave/histo: list of (step, total count, rows x columns)."""
-    rows, blocks = read_rows(path), []
-    while rows:
-        step, bins, total = rows[0][0], int(rows[0][1]), rows[0][2]
-        block, rows = rows[1:bins + 1], rows[bins + 1:]
-        if len(block) != bins or any(len(row) != columns for row in block):
-            stop(path, f"the block of step {step:.0f} lacks some of its {bins} bins")
-        blocks.append((step, total, np.array(block)))
-    if not any(step > 0 for step, _, _ in blocks):
-        stop(path, "holds no block after t = 0; in.channel writes one at t = 1, 2, ...")
-    return blocks
-
-
-@dataclass
-class Run:
-    """One run of in.channel. Times in L/U, y in L, v in U, c as area fraction, overlaps in r."""
-    phi: str
-    history: dict     # name -> values, over history["t"]
-    profiles: dict    # "t", "centre", "at_wall", "still_layer" over time; y, c, v of the last
-    overlaps: tuple   # t, bin edges, share of the contacts
-    picture: tuple    # t, image
-
-    @property
-    def t(self):
-        """Time reached, in L/U."""
-        return self.history["t"][-1]
+    def __init__(self, path, si):
+        super().__init__(path, "channel-phi")
+        self.phi = f"{float(self.name):g}"
+        times, blocks = self.blocks(".profiles")
+        self.particles = round(blocks[-1][:, 2].sum())
+        profiles = [profile(rows, si) for rows in blocks]
+        self.y, self.c, self.v = profiles[-1]
+        series = [(c[abs(y) < 0.1].mean() / c.mean(), (c[0] + c[-1]) / 2 / c.mean(),
+                   still_layer(v, y[1] - y[0])) for y, c, v in profiles]
+        self.profiles = {"t": times, **dict(zip(("centre", "at_wall", "still_layer"), np.array(series).T))}
+        for name in ("in_aggregates", "wall_in_aggregates"):
+            self.history[name] = self.history[name] / self.particles
+        self.overlaps = read_overlaps(self, si)
+        self.picture = read_picture(self)
 
 
 def profile(rows, si):
@@ -136,56 +66,23 @@ def still_layer(v, width):
     return width * (len(v) if len(moving) == 0 else (moving[0] + len(v) - 1 - moving[-1]) / 2)
 
 
-def read_profiles(path, unit, si):
-    """Last profile, and its figures of merit over time. `unit` is the steps in one L/U."""
-    blocks = read_blocks(path, 5)
-    out = {"t": np.array([step / unit for step, _, _ in blocks]), "particles": round(blocks[-1][1])}
-    series = []
-    for _, _, rows in blocks:
-        y, c, v = profile(rows, si)
-        series.append((c[abs(y) < 0.1].mean() / c.mean(), (c[0] + c[-1]) / 2 / c.mean(),
-                       still_layer(v, y[1] - y[0])))
-    out.update(zip(("centre", "at_wall", "still_layer"), np.array(series).T))
-    return {**out, "y": y, "c": c, "v": v}
-
-
-def read_overlaps(path, unit, si):
+def read_overlaps(run, si):
     """Time [L/U], bin edges [r] and share of contacts per bin of the last histogram."""
-    step, _, rows = read_blocks(path, 4)[-1]
-    centres = rows[:, 1] / (si["d"] / 2)
+    times, blocks = run.blocks(".overlaps")
+    centres = blocks[-1][:, 1] / (si["d"] / 2)
     edges = np.append(centres, 2 * centres[-1] - centres[-2]) - (centres[1] - centres[0]) / 2
-    return step / unit, edges, rows[:, 3]
+    return times[-1], edges, blocks[-1][:, 3]
 
 
-def read_picture(folder, phi, unit):
+def read_picture(run):
     """Time [L/U] and pixels of the last picture."""
-    paths = sorted(folder.glob(f"channel-phi{phi}.{'[0-9]' * 9}.png"))
+    paths = sorted(run.path.parent.glob(f"{run.path.stem}.{'[0-9]' * 9}.png"))
     if not paths:
-        stop(folder / f"channel-phi{phi}.*.png", "missing; in.channel writes them")
+        stop(run.path.with_suffix(".*.png"), "missing; in.channel writes them")
     try:
-        return int(paths[-1].suffixes[-2][1:]) / unit, plt.imread(paths[-1])
+        return int(paths[-1].suffixes[-2][1:]) / run.unit, plt.imread(paths[-1])
     except (OSError, SyntaxError, ValueError) as error:
         stop(paths[-1], f"not a whole picture: {error}")
-
-
-def read_runs(folder, si):
-    """All runs in the folder, by phi."""
-    runs = []
-    for path in folder.glob("channel-phi*.aggregates"):
-        phi, stem = path.stem.removeprefix("channel-phi"), str(path.with_suffix(""))
-        if not re.fullmatch(r"\d+(\.\d*)?(e[+-]?\d+)?", phi):
-            stop(path, f"phi must be a number in the file's name, got '{phi}'")
-        history = read_history(path)
-        unit = history["step"][-1] / history["t"][-1]
-        profiles = read_profiles(Path(stem + ".profiles"), unit, si)
-        for name in ("in_aggregates", "wall_in_aggregates"):
-            history[name] = history[name] / profiles["particles"]
-        overlaps = read_overlaps(Path(stem + ".overlaps"), unit, si)
-        runs.append(Run(f"{float(phi):g}", history, profiles, overlaps,
-                        read_picture(folder, phi, unit)))
-    if not runs:
-        stop(folder / "channel-phi*.aggregates", "missing; run in.channel with -var dir first")
-    return sorted(runs, key=lambda run: float(run.phi))
 
 
 # ---------------------------------------------------------------------- comparing
@@ -195,10 +92,11 @@ def average(run, quantity, end):
     """Mean and standard deviation over the last fifth of 0 < t < end; of P/Q too."""
     if "/" in quantity:
         return divide(*(average(run, part, end) for part in quantity.split("/")))
-    source = run.history if quantity in run.history else run.profiles
-    known = source["t"] <= end + 1e-6
-    recent = known & (source["t"] >= 0.8 * end - 1e-6)
-    values = source[quantity][recent] if any(recent) else source[quantity][known][-1:]
+    t, values = ((run.t, run.history[quantity]) if quantity in run.history
+                 else (run.profiles["t"], run.profiles[quantity]))
+    known = t <= end + 1e-6
+    recent = known & (t >= 0.8 * end - 1e-6)
+    values = values[recent] if any(recent) else values[known][-1:]
     return values.mean(), values.std(ddof=1) if len(values) > 1 else np.nan
 
 
@@ -209,69 +107,17 @@ def divide(a, b):
     return a[0] / b[0], abs(a[0] / b[0]) * np.hypot(a[1] / a[0], b[1] / b[0])
 
 
-def verdict(row, mean, deviation, reached):
-    """Words for one row: too short a run, no number to compare with, or agreement."""
-    if reached < float(row["for_t"].strip("=> ")) - 1e-6:
-        return f"run ended at t = {reached:g}: the report's value is for t {row['for_t']}"
-    if np.isnan(mean):
-        return "ours is not defined: no such aggregates"
-    if np.isnan(row["low"]) and np.isnan(row["high"]):
-        return "no number in the report"
-    off = outside(row, mean)
-    if off == 0:
-        return "agrees within the reading error"
-    spread = np.nan_to_num(deviation)
-    return "agrees within our standard deviation" if abs(off) <= spread else "differs"
-
-
-def outside(row, mean):
-    """How far the mean lies above (> 0) or below (< 0) the report's range; 0 inside."""
-    if mean < row["low"]:
-        return mean - row["low"]
-    return mean - row["high"] if mean > row["high"] else 0.0
-
-
-def report_text(row):
-    """The report's value with its reading error, or its range."""
-    low, value, high = (row[key] for key in ("low", "value", "high"))
-    if not np.isnan(value):
-        return f"{value:g} +- {high - value:.2g}"
-    if np.isnan(low):
-        return "in words"
-    if np.isnan(high):
-        return f"> {low:g}"
-    return f"{low:g} .. {high:g}" if low > 0 else f"< {high:g}"
-
-
-def compare(report, runs):
-    """Lines of the table report / ours, for the cases that were run."""
-    by_phi, table = {run.phi: run for run in runs}, []
+def values_of(report, runs):
+    """Our number for each row of report.csv whose phi, or pair of them, have been run."""
+    by_phi, values = {run.phi: run for run in runs}, {}
     for row in report:
-        if not all(phi in by_phi for phi in row["case"].split("/")):
-            continue
-        parts = [by_phi[phi] for phi in row["case"].split("/")]
-        reached = min(run.t for run in parts)
-        values = [average(run, row["quantity"], reached) for run in parts]
-        mean, deviation = values[0] if len(values) == 1 else divide(*values)
-        spread = "one sample" if np.isnan(deviation) else f"{deviation:.2g}"
-        known = not np.isnan(row["value"])
-        table.append((row["case"], row["figure"], QUANTITIES[row["quantity"]], report_text(row),
-                      f"{mean:.4g} ({spread})",
-                      f"{mean - row['value'] if known else outside(row, mean):+.3g}",
-                      f"{reached:g}", verdict(row, mean, deviation, reached), row["words"]))
-    return table
-
-
-def format_table(table):
-    """The table as text with aligned columns."""
-    head = ("phi", "fig.", "quantity", "report", "ours (std)", "diff.", "t", "verdict",
-            "the report says")
-    widths = [max(len(row[k]) for row in [head, *table]) for k in range(len(head))]
-    lines = ["  ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip()
-             for row in [head, *table]]
-    note = ("ours: mean and standard deviation over the last fifth of the run. diff.: ours less\n"
-            "the report's value, or how far ours is outside its range. t: time reached, in L/U.\n")
-    return "\n".join([lines[0], "-" * max(map(len, lines)), *lines[1:]]) + "\n\n" + note
+        if all(phi in by_phi for phi in row["case"].split("/")):
+            parts = [by_phi[phi] for phi in row["case"].split("/")]
+            reached = min(run.t[-1] for run in parts)
+            means = [average(run, row["quantity"], reached) for run in parts]
+            values[row["case"], row["quantity"]] = Ours(*(means[0] if len(means) == 1 else divide(*means)),
+                                                        reached)
+    return values
 
 
 # ---------------------------------------------------------------------- drawing
@@ -284,9 +130,9 @@ def style(phi):
     return {"color": COLOURS[k], "linestyle": DASHES[k % 4]}
 
 
-def save(figure, path):
+def save(figure, path, dpi=200):
     """Writes a figure."""
-    figure.savefig(path, dpi=200, bbox_inches="tight", facecolor="white")
+    figure.savefig(path, dpi=dpi, bbox_inches="tight", facecolor="white")
     plt.close(figure)
 
 
@@ -328,18 +174,18 @@ def draw_pictures(runs, amap, path):
     bar = figure.colorbar(size_colours(amap), ax=axes, location="bottom", shrink=0.5, aspect=40,
                           pad=0.02, extend="max", ticks=[1, 4, 8, 12, 16, 20])
     bar.set_label("particles in the aggregate")
-    save(figure, path)
+    save(figure, path, 90)
 
 
 def draw_profile(axes, run, words):
     """One row of figure 10: c on the left, v on the right."""
-    p, look = run.profiles, {"color": style(run.phi)["color"], "linewidth": 1.3}
+    look = {"color": style(run.phi)["color"], "linewidth": 1.3}
     y = np.linspace(-0.5, 0.5, 201)
-    axes[0].plot(p["y"], p["c"], **look)
-    axes[0].axhline(p["c"].mean(), color="0.5", linewidth=0.9, linestyle=":", label="mean")
+    axes[0].plot(run.y, run.c, **look)
+    axes[0].axhline(run.c.mean(), color="0.5", linewidth=0.9, linestyle=":", label="mean")
     axes[1].plot(y, 1 - 4 * y**2, "--", color="0.45", linewidth=1, label="air, 1 - 4 (y/L)$^2$")
-    axes[1].plot(p["y"], p["v"], **look, label="particles")
-    axes[0].set_title(rf"$\phi$ = {run.phi},  t = {p['t'][-1]:g} L/U", loc="left")
+    axes[1].plot(run.y, run.v, **look, label="particles")
+    axes[0].set_title(rf"$\phi$ = {run.phi},  t = {run.profiles['t'][-1]:g} L/U", loc="left")
     axes[0].text(0.5, 0.95, textwrap.fill(words, 48), transform=axes[0].transAxes, ha="center",
                  va="top", fontsize=9, style="italic")
 
@@ -360,7 +206,7 @@ def draw_profiles(runs, report, path):
         row[0].set_ylabel("c (area fraction)")
         row[1].set_ylabel("v / U")
         row[1].legend(fontsize=8, loc="lower center", frameon=False)
-    top = max(run.profiles["c"].max() for run in runs)
+    top = max(run.c.max() for run in runs)
     axes[0, 0].set(xlim=(-0.5, 0.5), ylim=(0, max(0.5, 1.05 * top)))
     axes[0, 1].set_ylim(-0.05, 1.15)
     for axis in axes[-1]:
@@ -395,10 +241,10 @@ def draw_aggregates(runs, report, figure_number, names, tops, path):
     `names` are the three quantities, `tops` the ends of the report's axes.
     """
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.9), layout="constrained")
-    total = runs[0].profiles["particles"]
+    total = runs[0].particles
     for axis, name, top, scale in zip(axes, names, tops, (total, 1, 1)):
         for run in runs:
-            axis.plot(run.history["t"], scale * run.history[name], linewidth=1.5, **style(run.phi),
+            axis.plot(run.t, scale * run.history[name], linewidth=1.5, **style(run.phi),
                       label=rf"$\phi$ = {run.phi}")
             top = max(top, 1.05 * scale * run.history[name].max())
         rows = [row for row in report if row["figure"] == figure_number and row["quantity"] == name
@@ -406,7 +252,7 @@ def draw_aggregates(runs, report, figure_number, names, tops, path):
         words = draw_values(axis, rows, scale) or draw_ranges(axis, rows)
         axis.text(1.14, 0.5, words, rotation=90, transform=axis.transAxes, va="center", fontsize=9)
         axis.set(xlabel="t  [L/U]", title=f"({'abc'[names.index(name)]})", ylim=(0, top),
-                 xlim=(0, max(run.t for run in runs)))
+                 xlim=(0, max(run.t[-1] for run in runs)))
     wall = "wall " if figure_number == "13" else ""
     axes[0].set_ylabel(rf"$n_P$, particles in {wall}aggregates, of {total}")
     axes[1].set_ylabel(rf"$N_A$, number of {wall}aggregates")
@@ -437,22 +283,20 @@ def draw_overlaps(runs, stiffness, path):
 
 def main():
     """Reads the folder, draws, prints and writes the table."""
-    parser = argparse.ArgumentParser(description="Draws the report's figures of the channel.")
-    parser.add_argument("dir", nargs="?", default=".", type=Path, help="folder with the output")
-    folder = parser.parse_args().dir
+    folder, out, kept = arguments("Draws the report's figures of the channel, and compares.", HERE)
     si, amap = read_input()
-    report, runs = read_report(), read_runs(folder, si)
+    report = read_report(HERE / "report.csv")
+    runs = sorted(read_runs(folder, "channel-phi*.aggregates", lambda path: Channel(path, si)),
+                  key=lambda run: float(run.phi))
     plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "axes.grid": False})
-    draw_pictures(runs, amap, folder / "figure09.png")
-    draw_profiles(runs, report, folder / "figure10.png")
+    draw_pictures(runs, amap, out / "figure09.png")
+    draw_profiles(runs, report, out / "figure10.png")
     names = ["in_aggregates", "aggregates", "mean_size"]
-    draw_aggregates(runs, report, "12", names, (8800, 2000, 25), folder / "figure12.png")
+    draw_aggregates(runs, report, "12", names, (8800, 2000, 25), out / "figure12.png")
     draw_aggregates(runs, report, "13", ["wall_" + name for name in names], (2200, 200, 25),
-                    folder / "figure13.png")
-    draw_overlaps(runs, si["lambda"], folder / "overlaps.png")
-    text = format_table(compare(report, runs))
-    (folder / "compare.txt").write_text(text)
-    print(text, end="")
+                    out / "figure13.png")
+    draw_overlaps(runs, si["lambda"], out / "overlaps.png")
+    conclude(HERE, report, values_of(report, runs), [run.cost("8000 particles") for run in runs], out, kept)
 
 
 if __name__ == "__main__":

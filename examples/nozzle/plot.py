@@ -1,47 +1,42 @@
 #!/usr/bin/python3
-"""Draws the report's figures from what in.nozzle wrote, and compares:   plot.py [DIR]
+"""Draws the report's figures from what in.nozzle wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi)
+Writes figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi), figure21.png and figure22.png (clogs)
 and compare.txt to DIR, from all nozzle-*.aggregates there.
 """
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parent.parent))
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from report import read_blocks, read_history, read_report, table
 
 HERE = Path(__file__).resolve().parent
-ONE, CHANNEL = 100, 5e-4    # steps in D/U, width of the channel [m], as in in.nozzle
+sys.path.append(str(HERE.parent))
+from report import Ours, Run, arguments, conclude, read_report, read_runs
+
+CHANNEL = 5e-4    # width of the channel [m], as in in.nozzle
+TRANSIT = 10 / 1.5    # from the exit to the outlet, 10 D at the largest velocity there [D/U]
 
 
-class Run:
-    """One run: history over t, and the mean size of free aggregates over x after a quarter of it."""
+def parts(run):
+    """Length of the contraction, phi, whether walls adhere, whether it has clogged; by the run's name."""
+    length, phi, _, wall = run.name.split("-")[:4]
+    ending = run.ending()
+    return length, float(phi.removeprefix("phi")), wall == "yes", float("clogged" in ending) if ending else np.nan
 
-    def __init__(self, path):
-        self.name = path.stem.removeprefix("nozzle-")
-        self.length, phi, _, wall = self.name.split("-")
-        self.phi, self.wall = float(phi.removeprefix("phi")), wall == "yes"
-        self.history = read_history(path)
-        self.t = self.history["step"] / ONE
-        blocks = [rows for step, rows in read_blocks(path.with_suffix(".profile"))
-                  if step >= 0.25 * self.history["step"][-1]]
-        self.x = blocks[0][:, 1] / CHANNEL
-        free, share = (sum(rows[:, 2] * rows[:, k] for rows in blocks) for k in (3, 4))
-        self.size = np.divide(free, share, out=np.full(len(free), np.nan), where=share > 0)
-        self.log = path.with_suffix(".log")
-        ends = [line for line in self.log.read_text().split("\n") if line[:5] in ("pass:", "FAIL:")]
-        self.clogged = float("clogged" in ends[-1]) if ends else np.nan
 
-    def values(self):
-        """The quantities of report.csv."""
-        late = self.t > 0.25 * self.t[-1]
-        return {"mean size of aggregates": self.history["mean_size"][late].mean(),
-                "clogs: 1 or 0": self.clogged}
+def size_along(run):
+    """Mean size of free aggregates over x [widths of the channel] after a quarter of the run."""
+    times, blocks = run.blocks(".profile")
+    blocks = [rows for t, rows in zip(times, blocks) if t >= 0.25 * run.t[-1]]
+    free, share = (sum(rows[:, 2] * rows[:, k] for rows in blocks) for k in (3, 4))
+    return blocks[0][:, 1] / CHANNEL, np.divide(free, share, out=np.full(len(free), np.nan), where=share > 0)
+
+
+def values_of(run):
+    """The quantities of report.csv."""
+    return {"mean size of aggregates": Ours(*run.last("mean_size", 0.75), run.t[-1]),
+            "clogs: 1 or 0": Ours(parts(run)[3], t=run.t[-1])}
 
 
 def draw_history(runs, path):
@@ -49,13 +44,13 @@ def draw_history(runs, path):
     figure, axes = plt.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
     for axis, wall in zip(axes, (False, True)):
         for run in runs:
-            if run.phi == 50 and run.wall == wall:
+            length, phi, adhere, clogged = parts(run)
+            if phi == 50 and adhere == wall:
                 axis.plot(run.t, run.history["mean_size"], linewidth=1,
-                          label=f"length {run.length}" + (", clogs" if run.clogged == 1 else ""))
+                          label=f"length {length}" + (", clogs" if clogged == 1 else ""))
         axis.set(xlabel="t  [D/U]", ylabel="mean size of aggregates",
                  title="walls adhere" if wall else "walls do not adhere")
-    axes[0].axhline(2.4, color="k", linestyle="--", linewidth=0.8, label="report")
-    for axis in axes:
+        axis.axhline(2.4, color="k", linestyle="--", linewidth=0.8, label="report, walls do not adhere")
         axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
@@ -66,35 +61,71 @@ def draw_profiles(groups, path):
                                 squeeze=False)
     for axis, (title, runs, label) in zip(axes[0], groups):
         for run in runs:
-            axis.plot(run.x, run.size, linewidth=1, label=label(run))
-        for x in {0.0, float(runs[0].length)}:
+            axis.plot(*size_along(run), linewidth=1, label=label(run))
+        for x in {0.0, float(parts(runs[0])[0])}:
             axis.axvline(x, color="0.6", linestyle="--", linewidth=0.8)
         axis.set(xlabel="x / width of the channel", ylabel="mean size of free aggregates", title=title)
         axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
 
+def close_ups(run):
+    """Times and paths of the close-ups of the exit."""
+    paths = sorted(run.path.parent.glob(f"{run.path.stem}.close.*.png"))
+    return [int(path.suffixes[-2][1:]) / run.unit for path in paths], paths
+
+
+def draw_pictures(pictures, columns, path):
+    """Pictures of (title, file) in rows."""
+    rows = -(-len(pictures) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(3.1 * columns, 2.7 * rows), squeeze=False,
+                                layout="constrained")
+    for axis in axes.flat:
+        axis.axis("off")
+    for axis, (title, file) in zip(axes.flat, pictures):
+        axis.imshow(plt.imread(file))
+        axis.set_title(title, fontsize=9)
+    figure.savefig(path, dpi=110)
+
+
+def draw_clogs(runs, out):
+    """The end of each run that clogged (figure 21), and how a bridge forms (figure 22) in the one with most pictures."""
+    clogged = [run for run in runs if parts(run)[3] == 1 and close_ups(run)[1]]
+    if not clogged:
+        return
+    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:.0f}", close_ups(run)[1][-1])
+            for run in clogged]
+    draw_pictures(ends, min(4, len(ends)), out / "figure21.png")
+    run = max(clogged, key=lambda run: len(close_ups(run)[1]) / run.t[-1])
+    times, paths = close_ups(run)
+    left = run.history["left"]
+    closed = run.t[left >= left[-1] - 0.5][0] - TRANSIT + 1
+    last = next(k for k, t in enumerate(times) if t >= closed or t == times[-1])
+    first = max(0, last - 7)
+    draw_pictures([(f"t = {t:g}", path) for t, path in zip(times[first:last + 1], paths[first:last + 1])], 4,
+                  out / "figure22.png")
+
+
 def main():
     """Reads, draws, compares."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
-    runs = [Run(path) for path in sorted(folder.glob("nozzle-*.aggregates"))]
-    if not runs:
-        sys.exit(f"{folder}/nozzle-*.aggregates: missing; run in.nozzle with -var dir first")
-    draw_history(runs, folder / "figure16.png")
-    lengths = [(f"length {length}", [run for run in runs if run.length == length and run.phi == 50],
-                lambda run: "walls adhere" if run.wall else "walls do not")
+    folder, out, kept = arguments(__doc__, HERE)
+    runs = read_runs(folder, "nozzle-*.aggregates", lambda path: Run(path, "nozzle-"))
+    draw_history(runs, out / "figure16.png")
+    lengths = [(f"length {length}", [run for run in runs if parts(run)[:2] == (length, 50)],
+                lambda run: "walls adhere" if parts(run)[2] else "walls do not")
                for length in ("0", "0.5", "1")]
     lengths = [group for group in lengths if group[1]]
     if lengths:
-        draw_profiles(lengths, folder / "figure17.png")
-    long = sorted((run for run in runs if run.length == "1" and run.wall), key=lambda run: run.phi)
-    if long:
-        draw_profiles([("length 1, walls adhere", long, lambda run: f"phi = {run.phi:g}")],
-                      folder / "figure20.png")
-    values = {(run.name, key): value for run in runs for key, value in run.values().items()}
-    words = {run.name: (f"t = {run.t[-1]:.0f}, {run.history['entered'][-1]:.0f} entered, "
-                        f"{run.history['left'][-1]:.0f} left", run.log) for run in runs}
-    table(read_report(HERE / "report.csv"), values, words, folder / "compare.txt")
+        draw_profiles(lengths, out / "figure17.png")
+    phis = sorted((run for run in runs if parts(run)[0] == "1" and parts(run)[2]), key=lambda run: parts(run)[1])
+    if phis:
+        draw_profiles([("length 1, walls adhere", phis, lambda run: f"phi = {parts(run)[1]:g}")],
+                      out / "figure20.png")
+    draw_clogs(runs, out)
+    values = {(run.name, key): value for run in runs for key, value in values_of(run).items()}
+    costs = [run.cost(f"{run.history['entered'][-1]:.0f} entered, {run.history['left'][-1]:.0f} left")
+             for run in runs]
+    conclude(HERE, read_report(HERE / "report.csv"), values, costs, out, kept)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the report's figures from what in.pipe wrote, and compares:   plot.py [DIR]
+"""Draws the report's figures from what in.pipe wrote, and compares:   plot.py [DIR] [--keep]
 
 Writes figure23.png (no adhesion), figure25.png, figure26.png, figure27.png (adhesion), figure24.png and
 compare.txt to DIR, from all pipe-*.aggregates there.
@@ -7,39 +7,27 @@ compare.txt to DIR, from all pipe-*.aggregates there.
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parent.parent))
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from report import read_blocks, read_history, read_report, table
 
 HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent))
+from report import Ours, Run, arguments, conclude, read_report, read_runs
+
 STEP, VOLUME = 0.00263, np.pi / 6 * 0.04**3    # particle step, volume of a particle; as in in.pipe
-BINS = {"r": 1, "count": 3, "density": 4, "v": 5}    # columns of the profiles
 
 
-class Run:
-    """One run: history over t, concentration c and velocity v over r at times, sizes at the end."""
+class Pipe(Run):
+    """One run, with concentration c and velocity v over r at times, and sizes at the end."""
 
     def __init__(self, path):
-        self.name = path.stem.removeprefix("pipe-")
+        super().__init__(path, "pipe-", 1 / STEP)
         self.adhesive = not self.name.startswith("phi0")
-        self.history = read_history(path)
-        self.t = self.history["step"] * STEP
-        blocks = read_blocks(path.with_suffix(".profiles"))
-        self.times = np.array([step * STEP for step, _ in blocks])
-        self.r = blocks[0][1][:, BINS["r"]]
-        self.c = np.array([rows[:, BINS["density"]] * VOLUME for _, rows in blocks])
-        self.v = np.array([np.where(rows[:, BINS["count"]] > 0, rows[:, BINS["v"]], np.nan) for _, rows in blocks])
-        sizes = read_blocks(path.with_suffix(".sizes"))[-1][1]
-        self.size, self.in_size = sizes[:, 1], sizes[:, 2]
-        self.log = path.with_suffix(".log")
-
-    def late(self, key):
-        """Mean of a column over the last fifth of the run."""
-        return self.history[key][self.t > 0.8 * self.t[-1]].mean()
+        self.times, blocks = self.blocks(".profiles")
+        self.r = blocks[0][:, 1]
+        self.c = np.array([rows[:, 4] * VOLUME for rows in blocks])
+        self.v = np.array([np.where(rows[:, 3] > 0, rows[:, 5], np.nan) for rows in blocks])
+        self.size, self.in_size = self.blocks(".sizes")[1][-1][:, 1:3].T
 
     def profile(self, t, width=3):
         """c and v at the time next to t, the mean of `width` blocks."""
@@ -53,18 +41,18 @@ def values_of(run):
     """The quantities of report.csv, at the end of the run."""
     c, v = run.profile(run.times[-1])
     volume = run.r * (run.r[1] - run.r[0])
-    size = run.late("in_aggregates") / run.late("aggregates")
+    inside, count = run.last("in_aggregates")[0], run.last("aggregates")[0]
     if not run.adhesive:
         early = run.history["in_aggregates"][(run.t > 1) & (run.t < 10)].mean()
-        return {"size of collision clusters": size, "c at r = 0.2": c[abs(run.r - 0.2) < 0.05].mean(),
+        return {"size of collision clusters": inside / count, "c at r = 0.2": c[abs(run.r - 0.2) < 0.05].mean(),
                 "largest c for 0.05 < r < 0.9": c[(run.r > 0.05) & (run.r < 0.9)].max(),
                 "c at r = 0.95": c[(run.r > 0.94) & (run.r < 0.96)].mean(),
                 "c at the wall / mean c": c[-1] / (c @ volume / volume.sum()),
-                "particles in collisions late / early": run.late("in_aggregates") / early}
+                "particles in collisions late / early": inside / early}
     still = run.r[v > 0.05]
     total = (c @ volume) * 2 * np.pi * 4 / VOLUME
-    return {"mean size": size, "particles in aggregates": run.late("in_aggregates") / total,
-            "number of aggregates": run.late("aggregates"),
+    return {"mean size": inside / count, "particles in aggregates": inside / total,
+            "number of aggregates": count,
             "largest aggregate": run.size[run.in_size > 0].max(),
             "radius of the peak of c": run.r[c.argmax()],
             "radius beyond which v < 0.05 U": still.max() if len(still) else 0.0}
@@ -119,25 +107,18 @@ def draw_sizes(runs, path):
 
 def main():
     """Reads, draws, compares."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
-    runs = [Run(path) for path in sorted(folder.glob("pipe-*.aggregates"))]
-    if not runs:
-        sys.exit(f"{folder}/pipe-*.aggregates: missing; run in.pipe with -var dir first")
+    folder, out, kept = arguments(__doc__, HERE)
+    runs = read_runs(folder, "pipe-*.aggregates", Pipe)
     dry, adhesive = ([run for run in runs if run.adhesive == kind] for kind in (False, True))
     if dry:
-        draw_profiles(dry, 3, folder / "figure23.png", [(0.2, 0.03), (0.95, 0.008)])
-        draw_history(dry, folder / "figure24.png", (None, None, 2.02))
+        draw_profiles(dry, 3, out / "figure23.png", [(0.2, 0.03), (0.95, 0.008)])
+        draw_history(dry, out / "figure24.png", (None, None, 2.02))
     if adhesive:
-        draw_history(adhesive, folder / "figure25.png", (0.8 * 5080, 700, 5.5))
-        draw_sizes(adhesive, folder / "figure26.png")
-        draw_profiles(adhesive, 2, folder / "figure27.png", [])
-    report, rows, values = read_report(HERE / "report.csv"), [], {}
-    for run in runs:
-        kind = "adhesive" if run.adhesive else "dry"
-        rows += [{**row, "case": run.name} for row in report if row["case"] == kind]
-        values.update({(run.name, key): value for key, value in values_of(run).items()})
-    table(rows, values, {run.name: (f"t = {run.t[-1]:.0f}", run.log) for run in runs},
-          folder / "compare.txt")
+        draw_history(adhesive, out / "figure25.png", (0.8 * 5080, 700, 5.5))
+        draw_sizes(adhesive, out / "figure26.png")
+        draw_profiles(adhesive, 2, out / "figure27.png", [])
+    values = {(run.name, key): Ours(value, t=run.t[-1]) for run in runs for key, value in values_of(run).items()}
+    conclude(HERE, read_report(HERE / "report.csv"), values, [run.cost("5080 particles") for run in runs], out, kept)
 
 
 if __name__ == "__main__":

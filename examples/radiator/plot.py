@@ -1,20 +1,18 @@
 #!/usr/bin/python3
-"""Draws what has settled where, from what in.radiator wrote, and compares:   plot.py [DIR]
+"""Draws what has settled where, from what in.radiator wrote, and compares:   plot.py [DIR] [--keep]
 
 Writes deposit.png and compare.txt to DIR, from all radiator-*.captured there.
 """
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parent.parent))
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from report import read_history, read_report, table
 
 HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent))
+from report import Ours, Run, arguments, conclude, read_report, read_runs
+
 ZONES = {"front": "front of the bar", "edges": "edges of the fins", "channels": "walls of the channels"}
 # areas in mm^2: the front with its round corners; the fins behind their round edges, 1.8 mm long, both faces
 AREA = {"front": 1.2 * (0.6 + np.pi * 0.2), "channels": 2 * 2 * 1.0 * 1.8}
@@ -22,33 +20,34 @@ AREA = {"front": 1.2 * (0.6 + np.pi * 0.2), "channels": 2 * 2 * 1.0 * 1.8}
 
 def values_of(run):
     """The quantities of report.csv."""
-    per_area = {zone: run[zone][-1] / area for zone, area in AREA.items()}
-    half = run["all"][run["t"] <= run["t"][-1] / 2][-1]
+    zones = run.history
+    per_area = {zone: zones[zone][-1] / area for zone, area in AREA.items()}
+    half = zones["all"][run.t <= run.t[-1] / 2][-1]
     pairs = {"deposited per area: front / channels": (per_area["front"], per_area["channels"]),
-             "deposited late / half-time": (run["all"][-1], half)}
+             "deposited late / half-time": (zones["all"][-1], half)}
     return {key: above / below if below else np.nan for key, (above, below) in pairs.items()}
+
+
+def draw(runs, path):
+    """What settles where, over time."""
+    figure, axes = plt.subplots(1, len(runs), figsize=(5.5 * len(runs), 3.8), layout="constrained",
+                                squeeze=False, sharey=True)
+    for axis, run in zip(axes[0], runs):
+        for zone, words in ZONES.items():
+            axis.plot(run.t, run.history[zone], linewidth=1, label=words)
+        axis.set(xlabel="t  [L/U]", ylabel="deposited particles", title=run.name)
+        axis.legend(fontsize=8)
+    figure.savefig(path, dpi=150)
 
 
 def main():
     """Reads, draws, compares."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
-    paths = sorted(folder.glob("radiator-*.captured"))
-    if not paths:
-        sys.exit(f"{folder}/radiator-*.captured: missing; run in.radiator with -var dir first")
-    figure, axes = plt.subplots(1, len(paths), figsize=(5.5 * len(paths), 3.8), layout="constrained",
-                                squeeze=False, sharey=True)
-    rows, values, runs = [], {}, {}
-    for axis, path in zip(axes[0], paths):
-        run, name = read_history(path), path.stem.removeprefix("radiator-")
-        for zone, words in ZONES.items():
-            axis.plot(run["t"], run[zone], linewidth=1, label=words)
-        axis.set(xlabel="t  [L/U]", ylabel="deposited particles", title=name)
-        axis.legend(fontsize=8)
-        rows += [{**row, "case": name} for row in read_report(HERE / "report.csv") if row["case"] in name]
-        values.update({(name, key): value for key, value in values_of(run).items()})
-        runs[name] = (f"t = {run['t'][-1]:.0f}, {run['entered'][-1]:.0f} entered", path.with_suffix(".log"))
-    figure.savefig(folder / "deposit.png", dpi=150)
-    table(rows, values, runs, folder / "compare.txt")
+    folder, out, kept = arguments(__doc__, HERE)
+    runs = read_runs(folder, "radiator-*.captured", lambda path: Run(path, "radiator-"))
+    draw(runs, out / "deposit.png")
+    values = {(run.name, key): Ours(value, t=run.t[-1]) for run in runs for key, value in values_of(run).items()}
+    conclude(HERE, read_report(HERE / "report.csv"), values,
+             [run.cost(f"{run.history['entered'][-1]:.0f} entered") for run in runs], out, kept)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #ifndef APF_BODIES_H
 #define APF_BODIES_H
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -92,7 +93,13 @@ class Bodies {
       plane.resize(n);
     else
       space.resize(n);
+    touched.resize(n, 1);
   }
+
+  // Contacts may put loads on row i, through with_rows() or rows(). Most bodies of a dilute cloud
+  // have none: set_all() and those who read loads then leave that half of their rows alone.
+  void touch(int i) { touched[i] = 1; }
+  bool may_have_load(int i) const { return touched[i]; }
 
   // rows as the planar or the spatial code sees them
   template <class Row> Row *rows();
@@ -128,7 +135,8 @@ class Bodies {
     });
   }
 
-  // the first n rows at once; x, v, omega, f, torque are [n][3]; set_all() leaves no loads
+  // the first n rows at once; x, v, omega, f, torque are [n][3]; set_all() leaves no loads, and no
+  // row that may have one
   void place_all(int n, const double (*x)[3])
   {
     with_rows([=](auto *row) {
@@ -142,14 +150,16 @@ class Bodies {
         copy(&x[i][0], row[i].x);
         copy(&v[i][0], row[i].v);
         copy(&omega[i][3 - row->spin_dim], row[i].omega);
-        clear(row[i]);
+        if (touched[i]) clear(row[i]);
       }
     });
+    std::fill_n(touched.begin(), n, 0);
   }
   void add_loads_to_all(int n, double (*f)[3], double (*torque)[3]) const
   {
     with_rows([=](const auto *row) {
       for (int i = 0; i < n; i++) {
+        if (!touched[i]) continue;
         add(row[i].f, &f[i][0]);
         add(row[i].torque, &torque[i][3 - row->spin_dim]);
       }
@@ -165,6 +175,7 @@ class Bodies {
   // adds to f[3] and torque[3] the load of a row, or to the row a load f[3], torque[3]
   void add_load_to(int i, double *f, double *torque) const
   {
+    if (!touched[i]) return;
     with_row(i, [f, torque](const auto &row) {
       add(row.f, f);
       add(row.torque, torque + 3 - row.spin_dim);
@@ -172,6 +183,7 @@ class Bodies {
   }
   void add_load(int i, const double *f, const double *torque)
   {
+    touch(i);
     with_row(i, [f, torque](auto &row) {
       add(f, row.f);
       add(torque + 3 - row.spin_dim, row.torque);
@@ -185,11 +197,13 @@ class Bodies {
       plane[to] = from.plane[i];
     else
       space[to] = from.space[i];
+    touch(to);
   }
 
   double memory_usage() const    // [bytes]
   {
-    return plane.capacity() * sizeof(PlaneRow) + space.capacity() * sizeof(SpaceRow);
+    return plane.capacity() * sizeof(PlaneRow) + space.capacity() * sizeof(SpaceRow) +
+        touched.capacity();
   }
 
  private:
@@ -202,6 +216,7 @@ class Bodies {
   bool flat;
   std::vector<PlaneRow> plane;    // one of the two is used
   std::vector<SpaceRow> space;
+  std::vector<char> touched;    // rows that may have loads
 
   template <class Action> void with_row(int i, Action action)
   {

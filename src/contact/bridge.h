@@ -8,9 +8,11 @@
 //
 // R is the effective radius r_i r_j / (r_i + r_j), r_i at a wall; for two equal spheres (45) is
 // Maugis's 2 pi r sigma cos(theta) H.
-// The report prints V/(4 R^2) in (47); V^(1/3) is Lian, Thornton and Adams's (J. Colloid Interface
-// Sci. 161, 138, 1993), to which it must reduce, with Pitois, Moucheront and Chateau's factor of
-// speed (doi:10.1006/jcis.2000.7096), fitted for 0.001 <= Ca <= 0.1: Ca counts up to 0.1.
+// The report prints V/(4 R^2) in (47); V^(1/3) is Lian, Thornton and Adams's (J. Colloid
+// Interface Sci. 161, 138, 1993), to which it must reduce. Pitois, Moucheront and Chateau
+// (J. Colloid Interface Sci. 231, 26, 2000, doi:10.1006/jcis.2000.7096) measured that the distance
+// grows as the square root of the speed; the factor 1 + sqrt(Ca) and its range
+// 0.001 <= Ca <= 0.1 are the report's. Ca counts up to 0.1.
 //
 // willett: the closed fit to exact profiles by Willett, Adams, Johnson and Seville
 // (doi:10.1021/la000657y), for V / (2R)^3 < 0.1 and theta < 50 degrees, instead of (45).
@@ -20,6 +22,7 @@
 #ifndef APF_BRIDGE_H
 #define APF_BRIDGE_H
 
+#include "../flow/elementary.h"
 #include "contact_model.h"
 
 #include <algorithm>
@@ -109,8 +112,8 @@ inline double wet_surface_energy(double x_fluid_over_dry, double Ai, double Aj, 
 // Willett's fit for one volume and contact angle:
 //   F / (2 pi R_s sigma) = exp(f1 - f2 exp(f3 ln s + f4 ln^2 s)),  s = (h/2) sqrt(R_s / V)
 // with R_s = 2 R, Derjaguin's radius, for unequal spheres and for walls.
-struct WillettFit {
-  double f1, f2, f3, f4;
+template <class Real> struct WillettFit {
+  Real f1, f2, f3, f4;
 
   static WillettFit of(double dimensionless_volume, double theta)
   {
@@ -128,64 +131,132 @@ struct WillettFit {
             cubic(-0.010703 + 0.073776 * t - 0.34742 * tt, 0.03345 + 0.04543 * t - 0.09056 * tt,
                   0.0018574 + 0.004456 * t - 0.006257 * tt, 0.0)};
   }
-  double force(double s) const
+  APF_INLINE Real force(const Real &s) const
   {
-    const double x = std::log(s);
-    return std::exp(f1 - f2 * std::exp(x * (f3 + f4 * x)));
+    const Real x = logarithm(s);
+    return exponential(f1 - f2 * exponential(x * (f3 + f4 * x)));
   }
 };
 
-// Numbers of one bridge. All roots are taken here, once.
-struct BridgeConstants {
-  double radius_sum, radius_i;    // [length]
-  double arm_share, turning;      // as in ContactBodies                                      [-]
-  double R;                       // effective radius                                     [length]
-  double m;                       // effective mass                                         [mass]
-  double h_min;                   // least gap                                            [length]
-  double b;                       // V / (pi R)                                         [length^2]
-  double pull;                    // 4 pi R sigma cos(theta)                               [force]
-  double drag;                    // 6 pi mu R^2                                 [force time]
-  double drag_min;                // resistance at h_min                                [mass/time]
-  double rupture;                 // gap of rupture at rest                               [length]
-  double inv_speed;               // mu / sigma: Ca = inv_speed |dh/dt|              [time/length]
-  double film;                    // resistance to sliding / (8/15 ln(R/h) + 0.9588)    [mass/time]
-  bool fitted;                    // Willett
-  WillettFit fit;
-  double fit_force, fit_scale;    // 4 pi R sigma, and s / h                [force], [1/length]
+// What a script says of two bodies that a bridge joins.
+struct WetContact {
+  const BridgeModel &liquid;
+  const ContactModel &dry;
+};
 
-  static BridgeConstants make(const BridgeModel &model, const ContactBodies &bodies, double volume)
+// Numbers of a bridge that do not depend on its volume, with those of the dry contact beside it.
+// All roots are taken here, once. Of doubles for one bridge, of Packs (pack.h) for a block of them.
+template <class Real> struct BridgeConstantsOf {
+  Real radius_sum, radius_i;    // [length]
+  Real arm_share, turning;      // as in ContactBodies                                         [-]
+  Real R;                       // effective radius                                        [length]
+  Real m, inv_m;                // effective mass, and 1 / m                       [mass], [1/mass]
+  Real h_min;                   // least gap                                               [length]
+  Real pull;                    // 4 pi R sigma cos(theta)                                  [force]
+  Real drag;                    // 6 pi mu R^2                                         [force time]
+  Real inv_speed;               // mu / sigma: Ca = inv_speed |dh/dt|                 [time/length]
+  Real film;         // resistance to sliding / (8/15 ln(R/h) + 0.9588); 0 = none       [mass/time]
+  Real fitted;       // 1: Willett, 0: (45)
+  Real fit_force;    // 4 pi R sigma                                                        [force]
+  Real inv_R, K, neck, break_overlap, eta, lag;    // of the dry contact, see ConstantsOf
+};
+
+// ... and those that do.
+template <class Real> struct BridgeVolumeOf {
+  Real b;               // V / (pi R)                                                    [length^2]
+  Real rupture;         // gap of rupture at rest                                          [length]
+  Real inv_drag_min;    // 1 / resistance at h_min; infinite without viscosity          [time/mass]
+  WillettFit<Real> fit;
+  Real fit_scale;    // s / h                                                         [1/length]
+};
+
+// H, and F_visc / (dh/dt); h >= h_min
+template <class Real> APF_INLINE Real filling(const Real &h, const Real &b)
+{
+  using std::sqrt;
+  const Real s = sqrt(h * h + b);
+  return (s - h) * inverse(s);
+}
+template <class Real>
+APF_INLINE Real bridge_resistance(const Real &drag, const Real &h, const Real &b)
+{
+  using std::sqrt;
+  const Real s2 = h * h + b, s = sqrt(s2);
+  return drag * norm2(s - h) * inverse(h * s2);
+}
+// Momentum that viscosity takes between two gaps is drag times the logarithm of the ratio of these:
+// integral of F_visc dt = integral of resistance dh.
+template <class Real> APF_INLINE Real momentum_ratio(const Real &h, const Real &b)
+{
+  using std::sqrt;
+  const Real s = sqrt(h * h + b);
+  return h * s * inverse(norm2(h + s));
+}
+// whether a bridge is beyond its rupture: gap > h_rupt
+template <class Real> APF_INLINE auto ruptured(const Real &gap, const Real &rupture, const Real &Ca)
+{
+  return rupture * rupture * smaller(Ca, largest_Ca) < norm2(larger(gap - rupture, 0.0));
+}
+template <class Real> APF_INLINE Real tangential_resistance(const Real &film, const Real &R_over_h)
+{
+  return film * larger((8.0 / 15.0) * logarithm(R_over_h) + 0.9588, 0.0);
+}
+
+// One bridge.
+struct BridgeConstants : BridgeConstantsOf<double>, BridgeVolumeOf<double> {
+  static BridgeConstantsOf<double> between(const WetContact &wet, const ContactBodies &bodies)
   {
-    BridgeConstants c{};
-    c.radius_sum = bodies.radius_i + bodies.radius_j;
-    c.radius_i = bodies.radius_i;
-    c.arm_share = bodies.arm_share;
-    c.turning = bodies.turning;
-    c.R = bodies.R;
+    const BridgeModel &liquid = wet.liquid;
+    const double R = bodies.R;
+    const auto dry = ContactConstants::make(wet.dry, bodies);
+    BridgeConstantsOf<double> c{};
+    c.radius_sum = dry.radius_sum;
+    c.radius_i = dry.radius_i;
+    c.arm_share = dry.arm_share;
+    c.turning = dry.turning;
+    c.R = R;
     c.m = bodies.m;
-    c.h_min = model.roughness * bodies.R;
-    c.b = volume / (pi * bodies.R);
-    c.pull = 4.0 * pi * bodies.R * model.sigma * std::cos(model.theta);
-    c.drag = 6.0 * pi * model.mu * bodies.R * bodies.R;
-    c.drag_min = c.resistance(c.h_min);
-    c.rupture = model.rupture_at_rest(volume);
-    c.inv_speed = model.mu / model.sigma;
-    c.film = model.tangential ? 6.0 * pi * model.mu * bodies.R : 0.0;
-    c.fitted = model.capillary == Capillary::willett;
-    const double Rs = 2.0 * bodies.R;
-    if (c.fitted) c.fit = WillettFit::of(volume / (Rs * Rs * Rs), model.theta);
-    c.fit_force = 2.0 * pi * Rs * model.sigma;
-    c.fit_scale = 0.5 * std::sqrt(Rs / volume);
+    c.inv_m = 1.0 / bodies.m;
+    c.h_min = liquid.roughness * R;
+    c.pull = 4.0 * pi * R * liquid.sigma * std::cos(liquid.theta);
+    c.drag = 6.0 * pi * liquid.mu * R * R;
+    c.inv_speed = liquid.mu / liquid.sigma;
+    c.film = liquid.tangential ? 6.0 * pi * liquid.mu * R : 0.0;
+    c.fitted = liquid.capillary == Capillary::willett ? 1.0 : 0.0;
+    c.fit_force = 4.0 * pi * R * liquid.sigma;
+    c.inv_R = dry.inv_R;
+    c.K = dry.K;
+    c.neck = dry.neck;
+    c.break_overlap = dry.break_overlap;
+    c.eta = dry.eta;
+    c.lag = dry.lag;
     return c;
   }
+  static BridgeVolumeOf<double> filled(const BridgeModel &liquid,
+                                       const BridgeConstantsOf<double> &c, double volume)
+  {
+    const double Rs = 2.0 * c.R;
+    BridgeVolumeOf<double> v{};
+    v.b = volume / (pi * c.R);
+    v.rupture = liquid.rupture_at_rest(volume);
+    v.inv_drag_min = 1.0 / bridge_resistance(c.drag, c.h_min, v.b);
+    if (c.fitted) v.fit = WillettFit<double>::of(volume / (Rs * Rs * Rs), liquid.theta);
+    v.fit_scale = 0.5 * std::sqrt(Rs / volume);
+    return v;
+  }
+  static BridgeConstants make(const WetContact &wet, const ContactBodies &bodies, double volume)
+  {
+    const auto c = between(wet, bodies);
+    return {c, filled(wet.liquid, c, volume)};
+  }
 
-  double gap(double h) const { return std::max(h, h_min); }                    // as the laws see it
-  double filling(double h) const { return 1.0 - h / std::sqrt(h * h + b); }    // H, h >= h_min
+  double gap(double h) const { return std::max(h, h_min); }    // as the laws see it
 
-  // attraction at a gap, also < h_min
+  // at a gap, also < h_min
   double attraction(double h) const
   {
     h = gap(h);
-    return fitted ? fit_force * fit.force(fit_scale * h) : pull * filling(h);
+    return fitted ? fit_force * fit.force(fit_scale * h) : pull * filling(h, b);
   }
   // work that the attraction does from a gap to rupture at rest
   double work(double h) const
@@ -206,91 +277,10 @@ struct BridgeConstants {
     }
     return sum;
   }
-  double resistance(double h) const    // F_visc / (dh/dt), h >= h_min
+  double resistance(double h) const { return bridge_resistance(drag, gap(h), b); }
+  double rupture_at(double speed) const    // h_rupt
   {
-    const double H = filling(h);
-    return drag * H * H / h;
-  }
-  double tangential_resistance(double h) const
-  {
-    return film * std::max(0.0, (8.0 / 15.0) * std::log(R / h) + 0.9588);
-  }
-  bool ruptures(double h, double speed) const
-  {
-    const double Ca = std::min(inv_speed * std::fabs(speed), largest_Ca);
-    return h > rupture * (1.0 + std::sqrt(Ca));
-  }
-
-  // Momentum that viscosity takes between gaps 0 and h, from h_min on: integral of F_visc dt =
-  // integral of resistance dh, in closed form; linear below h_min.
-  double momentum(double h) const
-  {
-    if (h <= h_min) return drag_min * (h - h_min);
-    return drag * std::log(momentum_ratio(h) / momentum_ratio(h_min));
-  }
-
- private:
-  // exp(integral of H^2/h dh) but for a factor
-  double momentum_ratio(double h) const
-  {
-    const double s = std::sqrt(h * h + b);
-    return h * s / ((h + s) * (h + s));
-  }
-};
-
-// One step of the viscous force along the normal. Closing speeds w are > 0 when the gap shrinks.
-//
-// Explicit steps would have to be shorter than 2 m h / (6 pi mu R^2). But the law says m dw = dG
-// with G(h) = momentum(h): viscosity takes a momentum that depends on gaps only, not on time. So
-//
-//   m (w' - w) = G(h') - G(h0),   h' = gap + offset - ahead w'
-//
-// is solved for the new speed w': h0 is where the last step left off, h' where this one will, with
-// ahead between half a step (second order) and a whole one where the step is too coarse for that
-// (then w' never changes its sign). Over many steps the right-hand sides add up to the exact law,
-// whatever the step. Other forces stand in w, so that slow draining comes out right, too.
-struct ViscousStep {
-  double from;     // h0                                                               [length]
-  double to;       // gap + offset                                                     [length]
-  double ahead;    // [time]
-  double mass;     // that the bridge has of the two bodies                              [mass]
-  double speed;    // w, what the bodies would have without viscosity                [velocity]
-
-  // share of a step that is looked ahead
-  static double share(double mass, double resistance, double step)
-  {
-    return std::max(0.5, 1.0 - mass / (resistance * step));
-  }
-
-  double new_speed(const BridgeConstants &c) const
-  {
-    // where the gap changes little the resistance of its middle does: error (change)^2 / 12
-    const double free = to - ahead * speed;
-    const double middle = c.gap(0.5 * (from + free));
-    const double k = c.resistance(middle);
-    const double w = (mass * speed + k * (to - from)) / (mass + k * ahead);
-    const double change = std::fabs(to - ahead * w - from);
-    const double widest = std::max(std::fabs(free - from), change);
-    if (widest <= 0.02 * middle && std::min({from, free, to - ahead * w}) >= c.h_min) return w;
-    return (to - solve(c, free)) / ahead;
-  }
-
- private:
-  // h' of mass (h' - free) / ahead + G(h') - G(h0) = 0, which grows with h' and is concave: Newton
-  // from the left goes straight to the root.
-  double solve(const BridgeConstants &c, double free) const
-  {
-    const double stiffness = mass / ahead, start = c.momentum(from);
-    if (stiffness * (c.h_min - free) - start >= 0.0)    // below h_min, where it is linear
-      return (stiffness * free + c.drag_min * c.h_min + start) / (stiffness + c.drag_min);
-    double h = std::max(c.h_min, std::min(free, from));
-    for (int n = 0; n < 50; n++) {
-      const double excess = stiffness * (h - free) + c.momentum(h) - start;
-      const double next = h - excess / (stiffness + c.resistance(h));
-      if (!(next - h > 1.0e-13 * h)) return std::max(next, h);
-      h = next;
-    }
-    return h;
+    return rupture * (1.0 + std::sqrt(std::min(inv_speed * std::fabs(speed), largest_Ca)));
   }
 };
 

@@ -1,14 +1,14 @@
-// Liquid bridges that there are now, and their forces. A bridge is an object of its own, which may
-// be there before, during and after a dry contact of the same two bodies: it is kept beside the
-// ContactList, not in it, and a scene without bridges pays nothing.
+// Liquid bridges that there are now, in blocks for vector code. A bridge is an object of its own,
+// which may be there before, during and after a dry contact of the same two bodies: it is kept
+// beside the ContactList, not in it, and a scene without bridges pays nothing.
 //
-// Bodies are rows, as for contacts; order has no meaning.
+// Bodies are rows, as for contacts; order has no meaning: a bridge that is removed is replaced by
+// the last one.
 
 #ifndef APF_BRIDGE_LIST_H
 #define APF_BRIDGE_LIST_H
 
-#include "bridge.h"
-#include "jump.h"
+#include "bridge_law.h"
 #include "stiffness.h"
 
 #include <cmath>
@@ -38,6 +38,17 @@ struct BridgeParts {
   double energy;           // of the capillary force: 0 at rupture, < 0 before it        [energy]
 };
 
+// Bridges of one kind differ in their volume only.
+struct BridgeKind {
+  BridgeConstantsOf<double> constants;
+  BridgeModel liquid;
+
+  static BridgeKind make(const WetContact &wet, const ContactBodies &bodies)
+  {
+    return {BridgeConstants::between(wet, bodies), wet.liquid};
+  }
+};
+
 // The mode of the capillary force, whose strength changes over the length sqrt(b). Viscosity sets
 // no limit to the step.
 inline StiffestMode capillary_mode(const BridgeConstants &c)
@@ -48,82 +59,140 @@ inline StiffestMode capillary_mode(const BridgeConstants &c)
   mode.least = mode.overlap;
   mode.mass = c.m;
   mode.slow2 = 2.0 * force * length / c.m;
-  mode.mode = NORMAL;
+  mode.mode = BRIDGE;
   return mode;
 }
 
 class BridgeList {
  public:
+  static constexpr int width = ContactList::width;    // bridges of a block
+  using Lanes = ContactList::Lanes;
+
+  // numbers of the bridges' volumes, of BridgeState, and what the kernel tells
+  struct alignas(64) Block {
+    Lanes b, rupture, inv_drag_min;    // of BridgeVolumeOf
+    Lanes mass;                        // that others leave to this one
+    Lanes formed, touching;            // of BridgeState
+    Lanes ended;                       // of BridgeOutput
+  };
+  struct alignas(64) FitBlock {
+    Lanes f1, f2, f3, f4, fit_scale;
+  };
+
   std::vector<int> i, j;      // rows of the two bodies
   std::vector<int> source;    // caller's mark
+  std::vector<int> kind;      // of `kinds`
+  Kinds<BridgeKind> kinds;
+  std::vector<Block> blocks;
+  std::vector<FitBlock> fit_blocks;
 
   int size() const { return static_cast<int>(i.size()); }
 
-  // is_new: it forms in this step; else it was there before
-  int add(int body_i, int body_j, int mark, const BridgeConstants &constants,
-          const BridgeMemory &memory, bool is_new)
+  // kind_of: a number of `kinds`. is_new: it forms in this step; else it was there before
+  int add(int body_i, int body_j, int mark, int kind_of, const BridgeMemory &memory, bool is_new)
   {
+    const int k = size();
     i.push_back(body_i);
     j.push_back(body_j);
     source.push_back(mark);
-    bridges.push_back({constants, memory, constants.m, is_new, false});
-    return size() - 1;
+    kind.push_back(kind_of);
+    kinds.use(kind_of);
+    memories.push_back(memory);
+    ages.push_back(is_new ? FRESH : std::isfinite(memory.formed) ? YOUNG : OLD);
+    not_old += ages[k] != OLD;
+    if (k % width == 0) {
+      blocks.emplace_back();
+      fit_blocks.emplace_back();
+    }
+    refill(k, memory);
+    set_mass(k, kinds.constants(kind_of).m);
+    set_touching(k, false);
+    lane(k, &Block::ended) = 0.0;
+    if (k % width == 0) fill_block(k / width);
+    return k;
   }
   void remove(int k)
   {
-    for (auto *array : {&i, &j, &source}) {
-      (*array)[k] = array->back();
-      array->pop_back();
+    const int last = size() - 1;
+    kinds.release(kind[k]);
+    not_old -= ages[k] != OLD;
+    for (auto *array : {&i, &j, &source, &kind}) move_last(*array, k);
+    move_last(memories, k);
+    move_last(ages, k);
+    copy_lane(blocks, last, k);
+    copy_lane(fit_blocks, last, k);
+    if (last % width == 0) {
+      blocks.pop_back();
+      fit_blocks.pop_back();
     }
-    bridges[k] = bridges.back();
-    bridges.pop_back();
   }
   void clear()
   {
-    for (auto *array : {&i, &j, &source}) array->clear();
-    bridges.clear();
+    for (auto *array : {&i, &j, &source, &kind}) array->clear();
+    kinds.release_all();
+    memories.clear();
+    ages.clear();
+    not_old = 0;
+    blocks.clear();
+    fit_blocks.clear();
   }
 
-  const BridgeConstants &constants(int k) const { return bridges[k].constants; }
-  const BridgeMemory &memory(int k) const { return bridges[k].memory; }
-  bool ended(int k) const { return bridges[k].ended; }    // at the last forces
+  BridgeConstants constants(int k) const { return constants(kind[k], memories[k].volume()); }
+  // of a bridge that there is not yet
+  BridgeConstants constants(int kind_of, double volume) const
+  {
+    const auto &c = kinds.constants(kind_of);
+    return {c, BridgeConstants::filled(kinds[kind_of].liquid, c, volume)};
+  }
+  const BridgeMemory &memory(int k) const { return memories[k]; }
+  bool ended(int k) const { return blocks[k / width].ended[k % width] != 0.0; }    // at last forces
   // the effective mass that other contacts and bridges of the two bodies leave to this one
-  void set_mass(int k, double mass) { bridges[k].mass = mass; }
+  void set_mass(int k, double mass) { lane(k, &Block::mass) = mass; }
+  double mass_alone(int k) const { return kinds.constants(kind[k]).m; }
+  // whether there is a dry contact beside it
+  void set_touching(int k, bool yes) { lane(k, &Block::touching) = yes ? 1.0 : 0.0; }
   // the same bridge with another volume
-  void refill(int k, const BridgeConstants &constants, const BridgeMemory &memory)
+  void refill(int k, const BridgeMemory &memory)
   {
-    bridges[k].constants = constants;
-    bridges[k].memory = memory;
+    memories[k] = memory;
+    const BridgeVolumeOf<double> v = constants(k);
+    lane(k, &Block::b) = v.b;
+    lane(k, &Block::rupture) = v.rupture;
+    lane(k, &Block::inv_drag_min) = v.inv_drag_min;
+    auto &fit = fit_blocks[k / width];
+    const int l = k % width;
+    fit.f1[l] = v.fit.f1;
+    fit.f2[l] = v.fit.f2;
+    fit.f3[l] = v.fit.f3;
+    fit.f4[l] = v.fit.f4;
+    fit.fit_scale[l] = v.fit_scale;
+    set_formed(k, memory.formed);
   }
 
-  // Adds the forces of all bridges to the rows. dry(k, overlap, closing speed): force of the dry
-  // contact of the same bodies along their normal, > 0 repels, 0 if there is none. What a bridge
-  // formed or ruptured between two steps exerts too much or too little goes to `due` as well
-  // (jump.h). Returns how many have ruptured: these exert nothing, the caller removes them.
-  template <class Row, class Dry>
-  int add_forces(Row *rows, const ContactTimes &times, Dry dry, std::vector<DueLoad> &due,
-                 BridgeParts *parts = nullptr)
+  // Before a step's forces: the gap at which a bridge has formed is of one step only.
+  void grow_older()
   {
-    int ended = 0;
-    for (int k = 0; k < size(); k++) {
-      auto &bridge = bridges[k];
-      if (times.advance > 0.0 && !bridge.fresh) bridge.memory.formed = INFINITY;
-      const Meeting<Row> pair(rows[i[k]], rows[j[k]], bridge.constants);
-      if (parts) parts[k] = BridgeParts{};
-      bridge.ended = bridge.constants.ruptures(pair.gap, pair.closing);
-      if (bridge.ended) {
-        ended++;
-        if (times.advance > 0.0) correct_end(bridge, k, rows, pair, times.advance, due);
-        continue;
+    for (int k = 0; not_old > 0 && k < size(); k++)
+      if (ages[k] == YOUNG) {
+        ages[k] = OLD;
+        not_old--;
+        set_formed(k, INFINITY);
       }
-      const double force_of_contact = dry(k, -pair.gap, pair.closing);
-      add_force(bridge, k, rows, pair, times, force_of_contact, parts ? parts + k : nullptr);
-      if (times.advance > 0.0) {
-        if (bridge.fresh) correct_start(bridge, k, rows, pair, times.advance, due);
-        bridge.fresh = false;
+  }
+  // After them: what bridges exert too much or too little that formed or ruptured between two steps
+  // goes to the rows and to `due` (jump.h). n_ended: how many have ended
+  template <class Row>
+  void correct_jumps(Row *rows, double step, int n_ended, std::vector<DueLoad> &due)
+  {
+    if (n_ended == 0 && not_old == 0) return;
+    for (int k = 0; k < size(); k++) {
+      if (ended(k)) {
+        correct_end(k, rows, step, due);
+      } else if (ages[k] == FRESH) {
+        correct_start(k, rows, step, due);
+        ages[k] = YOUNG;
       }
     }
-    return ended;
   }
 
   // the fastest that bodies joined by a bridge may come to move within a time step
@@ -132,11 +201,12 @@ class BridgeList {
   {
     double most = 0.0;
     for (int k = 0; k < size(); k++) {
-      const auto &c = bridges[k].constants;
-      const auto approach = Approach::of(rows[i[k]], rows[j[k]], c.radius_sum);
-      const double v2 = approach.relative_speed * approach.relative_speed;
+      const double radius_sum = kinds.constants(kind[k]).radius_sum;
+      const auto approach = Approach::of(rows[i[k]], rows[j[k]], radius_sum);
       const double forced = approach.relative_speed + acceleration(k) * step;
       if (forced <= most) continue;
+      const double v2 = approach.relative_speed * approach.relative_speed;
+      const auto c = constants(k);
       most = std::max(most, std::min(forced, std::sqrt(v2 + 2.0 * c.work(c.h_min) / c.m)));
     }
     return most;
@@ -145,143 +215,75 @@ class BridgeList {
   template <class Row> void find_stiffest(const Row *rows, Stiffest &stiffest) const
   {
     for (int k = 0; k < size(); k++) {
-      const auto approach = Approach::of(rows[i[k]], rows[j[k]], bridges[k].constants.radius_sum);
-      stiffest.include(capillary_mode(bridges[k].constants), 0.0,
-                       approach.relative_speed * approach.relative_speed);
+      const auto c = constants(k);
+      const auto approach = Approach::of(rows[i[k]], rows[j[k]], c.radius_sum);
+      stiffest.include(capillary_mode(c), 0.0, approach.relative_speed * approach.relative_speed);
     }
   }
 
   double memory_usage() const    // [bytes]
   {
-    return i.capacity() * 3.0 * sizeof(int) + bridges.capacity() * sizeof(Bridge);
+    return i.capacity() * 4.0 * sizeof(int) + kinds.memory_usage() + ages.capacity() +
+        memories.capacity() * sizeof(BridgeMemory) +
+        blocks.capacity() * (sizeof(Block) + sizeof(FitBlock));
   }
 
  private:
-  struct Bridge {
-    BridgeConstants constants;
-    BridgeMemory memory;
-    double mass;    // see set_mass
-    bool fresh;     // no step has been made with it
-    bool ended;
-  };
-  std::vector<Bridge> bridges;
+  enum Age : char { FRESH, YOUNG, OLD };    // no step has been made with it; one; more
+  std::vector<BridgeMemory> memories;
+  std::vector<Age> ages;
+  int not_old = 0;
 
-  // Two bodies as a bridge sees them; velocities are i minus j.
-  template <class Row> struct Meeting {
-    double n[3] = {}, v[3] = {}, distance = 0.0, gap, closing = 0.0, across2 = 0.0;
-
-    Meeting(const Row &a, const Row &b, const BridgeConstants &c)
-    {
-      for (int d = 0; d < Row::dim; d++) {
-        n[d] = b.x[d] - a.x[d];
-        v[d] = a.v[d] - b.v[d];
-        distance += n[d] * n[d];
-        across2 += v[d] * v[d];
-      }
-      distance = std::sqrt(distance);
-      for (double &component : n) component /= distance;
-      for (int d = 0; d < Row::dim; d++) closing += v[d] * n[d];
-      across2 = std::max(0.0, across2 - closing * closing);
-      gap = distance - c.radius_sum;
-    }
-  };
-
-  template <class Row>
-  void add_force(Bridge &bridge, int k, Row *rows, const Meeting<Row> &pair,
-                 const ContactTimes &times, double dry, BridgeParts *parts)
+  double &lane(int k, Lanes Block::*lanes) { return (blocks[k / width].*lanes)[k % width]; }
+  void set_formed(int k, double gap)
   {
-    const auto &c = bridge.constants;
-    const double kick = times.behind + 0.5 * times.step;
-    const double capillary = c.attraction(pair.gap);
-    const double viscous = viscous_force(bridge, pair, times, kick, (capillary - dry) / c.m);
-    double on_i[3], slip_force[3] = {};
-    for (int d = 0; d < 3; d++) on_i[d] = (capillary - viscous) * pair.n[d];
-    if (c.film > 0.0) {
-      add_tangential(bridge, k, rows, pair, kick, slip_force);
-      for (int d = 0; d < 3; d++) on_i[d] += slip_force[d];
-    }
-    for (int d = 0; d < Row::dim; d++) {
-      rows[i[k]].f[d] += on_i[d];
-      rows[j[k]].f[d] -= on_i[d];
-    }
-    if (!parts) return;
-    *parts = {pair.gap, capillary, viscous, {}, {}, -c.work(pair.gap)};
-    std::copy_n(slip_force, 3, parts->tangential);
-    std::copy_n(on_i, 3, parts->force);
+    memories[k].formed = gap;
+    lane(k, &Block::formed) = std::isfinite(gap) ? gap : -INFINITY;
   }
-
-  // acceleration: of closing, by the other forces between the two bodies
-  template <class Row>
-  static double viscous_force(const Bridge &bridge, const Meeting<Row> &pair,
-                              const ContactTimes &times, double kick, double acceleration)
+  template <class Value> static void move_last(std::vector<Value> &array, int to)
   {
-    const auto &c = bridge.constants;
-    if (c.drag == 0.0) return 0.0;
-    if (kick == 0.0) return c.resistance(c.gap(pair.gap)) * pair.closing;
-    const double share = ViscousStep::share(bridge.mass, c.drag_min, times.step);
-    const double ahead = share * times.step, back = 2.0 * (1.0 - share) * times.behind;
-    // the distance of two bodies that pass each other grows by the square of time
-    const double turn = 0.5 * c.turning * pair.across2 / pair.distance;
-    const double last = pair.gap + back * pair.closing + turn * back * back;
-    const double formed = bridge.memory.formed;
-    const ViscousStep step{std::isfinite(formed) ? std::max(formed, last) : last,
-                           pair.gap + turn * ahead * ahead, ahead, bridge.mass,
-                           pair.closing + kick * acceleration};
-    return bridge.mass * (step.speed - step.new_speed(c)) / kick;
+    array[to] = array.back();
+    array.pop_back();
   }
-
-  // Resistance to the sliding of the two surfaces, which moves them as if they had 2/7 of the mass;
-  // backward Euler, stable for any step.
-  template <class Row>
-  void add_tangential(const Bridge &bridge, int k, Row *rows, const Meeting<Row> &pair, double kick,
-                      double (&force)[3])
+  // a block of lanes is an array of them
+  template <class Blocks> static void copy_lane(std::vector<Blocks> &from, int k, int to)
   {
-    const auto &c = bridge.constants;
-    Row &a = rows[i[k]], &b = rows[j[k]];
-    const double arm_i = c.radius_i + c.arm_share * pair.gap, arm_j = pair.distance - arm_i;
-    constexpr int first = 3 - Row::spin_dim;
-    double spin[3] = {}, torque[3];
-    for (int d = 0; d < Row::spin_dim; d++)
-      spin[first + d] = arm_i * a.omega[d] + arm_j * b.omega[d];
-    const double resistance = c.tangential_resistance(c.gap(pair.gap));
-    const double scale = resistance / (1.0 + resistance * kick / (2.0 / 7.0 * bridge.mass));
-    for (int d = 0; d < 3; d++) {
-      const int e = (d + 1) % 3, g = (d + 2) % 3;
-      const double slip =
-          pair.v[d] - pair.closing * pair.n[d] + spin[e] * pair.n[g] - spin[g] * pair.n[e];
-      force[d] = -scale * slip;
-    }
-    for (int d = 0; d < 3; d++) {
-      const int e = (d + 1) % 3, g = (d + 2) % 3;
-      torque[d] = pair.n[e] * force[g] - pair.n[g] * force[e];
-    }
-    for (int d = 0; d < Row::spin_dim; d++) {
-      a.torque[d] += arm_i * torque[first + d];
-      b.torque[d] += arm_j * torque[first + d];
+    const auto *lanes = reinterpret_cast<const Lanes *>(&from[k / width]);
+    auto *copies = reinterpret_cast<Lanes *>(&from[to / width]);
+    for (size_t n = 0; n < sizeof(Blocks) / sizeof(Lanes); n++)
+      copies[n][to % width] = lanes[n][k % width];
+  }
+  // lanes without a bridge have numbers with which the law can be evaluated, too
+  void fill_block(int block)
+  {
+    for (int l = 1; l < width; l++) {
+      copy_lane(blocks, block * width, block * width + l);
+      copy_lane(fit_blocks, block * width, block * width + l);
     }
   }
 
   // capillary force since the bridge formed, or until it ruptured, as correct_touch() and
   // correct_end() do it for dry contacts
   template <class Row>
-  void correct_start(const Bridge &bridge, int k, Row *rows, const Meeting<Row> &pair, double step,
-                     std::vector<DueLoad> &due)
+  void correct_start(int k, Row *rows, double step, std::vector<DueLoad> &due) const
   {
-    const double moved = step * pair.closing, past = bridge.memory.formed - pair.gap;
+    const auto c = constants(k);
+    const auto approach = Approach::of(rows[i[k]], rows[j[k]], c.radius_sum);
+    const double formed = memories[k].formed;
+    const double moved = step * approach.closing_speed, past = formed - approach.gap;
     if (!(moved > 0.0) || !(past <= moved)) return;
-    const double force = bridge.constants.attraction(bridge.memory.formed);
-    push_apart(rows, i[k], j[k], -(past / moved - 0.5) * force, due);
+    push_apart(rows, i[k], j[k], -(past / moved - 0.5) * c.attraction(formed), due);
   }
   template <class Row>
-  void correct_end(const Bridge &bridge, int k, Row *rows, const Meeting<Row> &pair, double step,
-                   std::vector<DueLoad> &due)
+  void correct_end(int k, Row *rows, double step, std::vector<DueLoad> &due) const
   {
-    const double moved = -step * pair.closing;
-    const auto &c = bridge.constants;
-    const double Ca = std::min(c.inv_speed * std::fabs(pair.closing), largest_Ca);
-    const double beyond = pair.gap - c.rupture * (1.0 + std::sqrt(Ca));
+    const auto c = constants(k);
+    const auto approach = Approach::of(rows[i[k]], rows[j[k]], c.radius_sum);
+    const double moved = -step * approach.closing_speed;
+    const double beyond = approach.gap - c.rupture_at(approach.closing_speed);
     if (!(moved > 0.0) || beyond > moved) return;
-    push_apart(rows, i[k], j[k], -(0.5 - beyond / moved) * c.attraction(pair.gap - beyond), due);
+    push_apart(rows, i[k], j[k], -(0.5 - beyond / moved) * c.attraction(approach.gap - beyond),
+               due);
   }
 };
 

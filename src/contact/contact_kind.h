@@ -1,5 +1,6 @@
-// Contacts between bodies of the same size, mass and material are of one kind: their constants cost
-// a dozen roots and powers, and are looked up where the same kind was met before.
+// Contacts between bodies of the same size, mass and material are of one kind, and so are their
+// bridges: constants cost a dozen roots and powers, and are looked up where the same kind was met
+// before.
 
 #ifndef APF_CONTACT_KIND_H
 #define APF_CONTACT_KIND_H
@@ -25,25 +26,25 @@ struct ContactKind {
 
 // The kinds in use, each with the number of its contacts, and the last one met at each place of a
 // hash. A kind that was pushed from there while it has contacts may be in here twice.
-class ContactKinds {
+template <class Kind> class Kinds {
  public:
-  const ContactKind &operator[](int n) const { return entries[n].kind; }
-  const ContactConstants &constants(int n) const { return entries[n].kind.constants; }
+  const Kind &operator[](int n) const { return entries[n].kind; }
+  const auto &constants(int n) const { return entries[n].kind.constants; }
 
   // number of the kind of a contact under the law of that number; without use() it holds until the
   // next call
-  int find(int law, const ContactModel &model, const ContactBodies &bodies)
+  template <class Model> int find(int law, const Model &model, const ContactBodies &bodies)
   {
     const uint64_t key = hash(law, bodies);
     int &n = recent[key % recent.size()];
     if (n >= 0 && entries[n].key == key) return n;
     if (n < 0 || entries[n].contacts > 0) n = place();
-    entries[n] = {key, ContactKind::make(model, bodies), 0};
+    entries[n] = {key, Kind::make(model, bodies), 0};
     return n;
   }
 
   // one that nobody is to find
-  int add(const ContactKind &kind)
+  int add(const Kind &kind)
   {
     const int n = place();
     entries[n] = {0, kind, 0};
@@ -75,7 +76,7 @@ class ContactKinds {
  private:
   struct Entry {
     uint64_t key;    // hash of law and bodies: 64 bits, compared with those of one place only
-    ContactKind kind;
+    Kind kind;
     int contacts;
   };
   std::vector<Entry> entries;
@@ -113,6 +114,8 @@ class ContactKinds {
     return h;
   }
 };
+
+using ContactKinds = Kinds<ContactKind>;
 
 }    // namespace apf
 

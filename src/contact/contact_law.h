@@ -142,8 +142,8 @@ struct ContactTimes {
 // spring seems 1 + 2 q times as stiff, q = eta behind / (2 m). A constant that is 1 + q times as
 // small leaves the damping ratio as it is, and with it the restitution, to the order of q^2.
 // Contacts at rest do not notice.
-template <class Real>
-APF_INLINE Real lagging_dashpot(const ConstantsOf<Real> &c, const Real &s, double behind)
+template <class Constants, class Real>
+APF_INLINE Real lagging_dashpot(const Constants &c, const Real &s, double behind)
 {
   const Real q = behind * c.lag * s;
   return c.eta * s * (1.0 - q * (1.0 - q));

@@ -10,7 +10,8 @@
 
 namespace apf {
 
-enum class Break { displacement, force };    // neck ends at -delta_C, or at the force maximum
+// The neck ends at -delta_C, where the force is largest, or there is none; the weakest one last.
+enum class Break { displacement, force, touch };
 
 struct ContactModel {
   Interface surface{};
@@ -25,6 +26,13 @@ struct ContactModel {
   bool sliding() const { return mu > 0.0; }
   bool rolling() const { return theta_crit > 0.0; }
   bool adhesive() const { return surface.gamma > 0.0; }
+
+  // Where the neck ends, over -delta_C; dF/ds = 0 at s^3 = 3 m^3.
+  double neck_share() const
+  {
+    if (neck_end == Break::touch) return 0.0;
+    return neck_end == Break::force ? std::cbrt(1.0 / 9.0) : 1.0;
+  }
 
   // Normal law with the stiffness scaled: gamma' = gamma f^(2/5) keeps the sticking velocity and
   // e(V) (Haervig et al., doi:10.1016/j.powtec.2017.04.006; Chen, Liu and Li, arXiv:1805.03025).
@@ -94,8 +102,6 @@ struct ContactConstants : ConstantsOf<double> {
     // What a softer contact must not change: the adhesive part of the friction limit and the
     // rolling moment, both proportional to F_C of the real material (physics: F_C' = f^(2/5) F_C).
     const double restore = std::pow(f, -0.4);
-    // force maximum at s^3 = 3 m^3 (dF/ds = 0), where overlap = -delta_C 9^(-1/3)
-    const double break_share = (model.neck_end == Break::force) ? std::cbrt(1.0 / 9.0) : 1.0;
 
     ContactConstants c{};
     c.radius_sum = bodies.radius_i + bodies.radius_j;
@@ -105,7 +111,7 @@ struct ContactConstants : ConstantsOf<double> {
     c.inv_R = 1.0 / bodies.R;
     c.K = normal.K;
     c.neck = normal.neck;
-    c.break_overlap = -break_share * normal.pulloff_overlap();
+    c.break_overlap = -model.neck_share() * normal.pulloff_overlap();
     c.eta = model.alpha * std::sqrt(bodies.m * normal.K / bodies.R);
     c.lag = 0.5 * c.eta / bodies.m;
     c.kt = 8.0 * model.surface.G * f * bodies.R;

@@ -19,12 +19,15 @@
 
 namespace apf {
 
-// normal force at s, elastic and damping, > 0 repels; s = sqrt(a/R)
-inline double force_at(const ContactConstants &c, double s, double closing_speed, double step)
+// normal force at s, elastic and damping, > 0 repels; s = sqrt(a/R), mass: that the contact has of
+// its two bodies
+template <class Constants, class Real>
+APF_INLINE Real force_at(const Constants &c, const Real &s, const Real &closing_speed,
+                         const Real &mass, double step)
 {
-  const double s3 = s * s * s, neck3 = c.neck * c.neck * c.neck;
-  const double eta = stable_dashpot(lagging_dashpot<double>(c, s, 0.5 * step),
-                                    c.K * c.inv_R * s * s, c.crowd_mass, step);
+  const Real s3 = s * s * s, neck3 = c.neck * c.neck * c.neck;
+  const Real eta =
+      stable_dashpot(lagging_dashpot(c, s, 0.5 * step), c.K * c.inv_R * s * s, mass, step);
   return c.K * s3 * (s3 - 6.0 * neck3) + eta * closing_speed;
 }
 
@@ -65,7 +68,7 @@ void correct_touch(const ContactList &list, int k, Row *rows, double step,
   const double touching = std::cbrt(4.0) * c.neck;        // where the overlap is 0
   const double share = -approach.gap / moved - 0.5;
   push_apart(rows, list.i[k], list.j[k],
-             share * force_at(c, touching, approach.closing_speed, step), due);
+             share * force_at(c, touching, approach.closing_speed, c.crowd_mass, step), due);
 }
 
 // Contact k has just ended.
@@ -79,7 +82,8 @@ void correct_end(const ContactList &list, int k, Row *rows, double step, std::ve
   if (!(moved > 0.0) || beyond > moved) return;
   const double s = jkr_root(c.break_overlap, c.inv_R, c.neck);
   push_apart(rows, list.i[k], list.j[k],
-             (0.5 - beyond / moved) * force_at(c, s, approach.closing_speed, step), due);
+             (0.5 - beyond / moved) * force_at(c, s, approach.closing_speed, c.crowd_mass, step),
+             due);
 }
 
 }    // namespace apf

@@ -1,9 +1,10 @@
-// The builds of the contact kernel, of the grid's sampler, of the forces of the fluid and of copies
-// between rows and lanes.
+// The builds of the kernels of contacts and bridges, of the grid's sampler, of the forces of the
+// fluid and of copies between rows and lanes.
 
 #include "../flow/fluid_forces.h"
 #include "../flow/grid_flow.h"
 #include "../flow/lane_rows.h"
+#include "bridge_kernel.h"
 #include "contact_kernel.h"
 #include "instruction_set.h"
 
@@ -12,6 +13,7 @@ namespace apf {
 #define APF_DECLARE(isa)                                                          \
   namespace isa {                                                                 \
     ContactKernel contact_kernel(const KernelChoice &choice);                     \
+    BridgeKernel bridge_kernel(const BridgeChoice &choice);                       \
     bool sample_grid(const GridView &, const PointBlock &, Detail, FluidBlock &); \
     void fluid_forces(const FluidModel &, const FluidBlock &, ForceBlock &);      \
     extern const LaneRows lane_row_functions;                                     \
@@ -37,6 +39,18 @@ const std::vector<KernelBuild> &kernel_builds()
 ContactKernel contact_kernel(const KernelChoice &choice)
 {
   static const KernelBuild &build = chosen(kernel_builds());
+  return build.kernel(choice);
+}
+
+const std::vector<BridgeBuild> &bridge_builds()
+{
+  static const auto builds = runnable<BridgeBuild>({APF_BUILDS(bridge_kernel)});
+  return builds;
+}
+
+BridgeKernel bridge_kernel(const BridgeChoice &choice)
+{
+  static const BridgeBuild &build = chosen(bridge_builds());
   return build.kernel(choice);
 }
 

@@ -122,6 +122,15 @@ template <int bytes> struct Pack {
         },
         a, b);
   }
+  // whether the mask is set anywhere
+  friend APF_INLINE bool any(const Mask &mask)
+  {
+    Bits all = mask.part[0];
+    for (int p = 1; p < n; p++) all |= mask.part[p];
+    decltype(all[0] | all[0]) sum = 0;
+    for (int l = 0; l < lanes; l++) sum |= all[l];
+    return sum != 0;
+  }
   friend APF_INLINE Pack smaller(const Pack &a, const Pack &b)
   {
     return each(
@@ -171,6 +180,10 @@ template <int bytes> APF_INLINE Pack<bytes> rough_inverse(const Pack<bytes> &a)
 {
   return 1.0 / a;
 }
+template <int bytes> APF_INLINE Pack<bytes> inverse_root(const Pack<bytes> &a)
+{
+  return 1.0 / sqrt(a);
+}
 
 #ifdef __AVX512F__
 // AVX-512 estimates 1/a and 1/sqrt(a) to 14 bits, and each Newton step doubles them: several times
@@ -216,6 +229,17 @@ APF_INLINE Pack<64> sqrt(const Pack<64> &a)
         root = root + root * error;
         half = half + half * error;
         return root + half * (x - root * root);
+      },
+      a);
+}
+
+APF_INLINE Pack<64> inverse_root(const Pack<64> &a)
+{
+  return Pack<64>::each(
+      [](Octet x) {
+        Octet y = estimate_inverse_root(x);
+        for (int step = 0; step < 2; step++) y = y + y * (0.5 - 0.5 * x * y * y);
+        return y;
       },
       a);
 }

@@ -24,8 +24,9 @@ namespace apf {
 constexpr double largest_stable_kappa = 0.8;
 constexpr double accurate_kappa = 0.3;
 
-enum ContactMode { NONE, NORMAL, TANGENTIAL, TWISTING, ROLLING };
-constexpr const char *mode_names[] = {"no", "normal", "tangential", "twisting", "rolling"};
+enum ContactMode { NONE, NORMAL, TANGENTIAL, TWISTING, ROLLING, BRIDGE };
+constexpr const char *mode_names[] = {"no",       "normal",  "tangential",
+                                      "twisting", "rolling", "bridge"};
 
 struct StiffestMode {
   double frequency = 0.0;    // at rest                                                [1/time]

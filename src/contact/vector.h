@@ -33,6 +33,10 @@ APF_INLINE double select(bool yes, double a, double b)
 {
   return yes ? a : b;
 }
+APF_INLINE bool any(bool yes)
+{
+  return yes;
+}
 
 template <class Real> struct Vector2 {
   Real x, y;
@@ -99,6 +103,10 @@ APF_INLINE double rough_inverse(double a)
 APF_INLINE double inverse(double a)
 {
   return 1.0 / a;
+}
+APF_INLINE double inverse_root(double a)
+{
+  return 1.0 / std::sqrt(a);
 }
 
 // Reciprocals of all at once by one division: that costs as much as a dozen products, and binds the

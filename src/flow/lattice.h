@@ -21,6 +21,13 @@ struct Lattice {
   {
     return axis == 0 ? 1 : axis == 1 ? n[0] : std::size_t(n[0]) * n[1];
   }
+  // of a node; 0 along an axis that the lattice does not have                         [length]
+  void position(int i, int j, int k, double *x) const
+  {
+    const int index[3] = {i, j, k};
+    for (int axis = 0; axis < 3; axis++)
+      x[axis] = axis < dims ? origin[axis] + index[axis] * spacing[axis] : 0.0;
+  }
   std::size_t node(int i, int j, int k) const { return i + n[0] * (j + std::size_t(n[1]) * k); }
 
   // i as the index of a node along an axis, -1 beyond the border; |i| within one period

@@ -128,9 +128,69 @@ namespace {
     return result.substr(0, std::strlen(result.c_str()));
   }
 
+  // What opens groups and arrays: a file must hold its data itself, so links to other files are not
+  // followed, which could be any that the user may read.
+  class SameFile {
+   public:
+    SameFile() : list(H5Pcreate(H5P_GROUP_ACCESS), H5Pclose)
+    {
+      H5Pset_elink_cb(
+          list,
+          [](const char *, const char *, const char *, const char *, unsigned *, hid_t, void *) {
+            return -1;
+          },
+          nullptr);
+    }
+    operator hid_t() const { return list; }
+
+   private:
+    Handle list;
+  };
+
   bool exists(hid_t group, const char *name)
   {
-    return H5Lexists(group, name, H5P_DEFAULT) > 0;
+    return H5Lexists(group, name, SameFile()) > 0;
+  }
+
+  void check_link(hid_t at, const std::string &name)
+  {
+    H5L_info_t link;
+    if (H5Lget_info(at, name.c_str(), &link, SameFile()) >= 0 && link.type == H5L_TYPE_EXTERNAL)
+      fail(name + " is a link to another file: the file must hold its data itself");
+  }
+
+  hid_t open_group(hid_t at, const char *name)
+  {
+    check_link(at, name);
+    return H5Gopen2(at, name, SameFile());
+  }
+
+  // an array whose numbers are in this file; `called`: in errors
+  hid_t open_array(hid_t at, const std::string &name, const std::string &called)
+  {
+    check_link(at, name);
+    const hid_t data = H5Oopen(at, name.c_str(), SameFile());
+    if (data < 0 || H5Iget_type(data) != H5I_DATASET) {
+      if (data >= 0) H5Oclose(data);
+      fail(called + " must be a dataset of HDF5");
+    }
+    const Handle list(H5Dget_create_plist(data), H5Pclose);
+    if (H5Pget_external_count(list) != 0 || H5Pget_layout(list) == H5D_VIRTUAL) {
+      H5Oclose(data);
+      fail(called + " has its numbers in another file: the file must hold its data itself");
+    }
+    return data;
+  }
+
+  // before there is memory for `count` numbers of a file that may say anything
+  void check_storage(hid_t data, double count, const std::string &called)
+  {
+    const Handle type(H5Dget_type(data), H5Tclose);
+    const double stored = static_cast<double>(H5Dget_storage_size(data));
+    if (stored == 0.0) fail(called + " has no data");
+    if (stored * best_compression < count * static_cast<double>(H5Tget_size(type)))
+      fail(called + " has " + text_of(stored) + " bytes of data for " + text_of(count) +
+           " numbers: it is not complete");
   }
 
 }    // namespace
@@ -175,7 +235,7 @@ void VtkhdfFile::open(const std::string &path)
 void VtkhdfFile::read_grid()
 {
   if (!exists(file, "VTKHDF")) fail("has no group VTKHDF");
-  const Handle group(H5Gopen2(file, "VTKHDF", H5P_DEFAULT), H5Gclose);
+  const Handle group(open_group(file, "VTKHDF"), H5Gclose);
   if (!group) fail("has no group VTKHDF");
   const std::string type = read_text(group, "Type");
   if (type != "ImageData") fail("Type must be ImageData, got " + type);
@@ -216,14 +276,14 @@ void VtkhdfFile::read_grid()
   }
 
   if (!exists(group, "PointData")) fail("has no group VTKHDF/PointData");
-  points = H5Gopen2(group, "PointData", H5P_DEFAULT);
+  points = open_group(group, "PointData");
   if (points < 0) fail("has no group VTKHDF/PointData");
 }
 
 void VtkhdfFile::read_steps()
 {
   if (!exists(file, "VTKHDF/Steps")) return;
-  const Handle steps(H5Gopen2(file, "VTKHDF/Steps", H5P_DEFAULT), H5Gclose);
+  const Handle steps(open_group(file, "VTKHDF/Steps"), H5Gclose);
   if (!steps) fail("Steps must be a group");
   long long n;
   read_attribute(steps, "NSteps", H5T_NATIVE_LLONG, 1, &n);
@@ -231,12 +291,12 @@ void VtkhdfFile::read_steps()
     fail("Steps attribute NSteps must be in [1, 2^24], got " + std::to_string(n));
 
   if (!exists(steps, "Values")) fail("Steps has no array Values, the times of the steps");
-  const Handle values(H5Dopen2(steps, "Values", H5P_DEFAULT), H5Dclose);
-  if (!values) fail("Steps/Values must be an array");
+  const Handle values(open_array(steps, "Values", "Steps/Values"), H5Dclose);
   const Handle space(H5Dget_space(values), H5Sclose), type(H5Dget_type(values), H5Tclose);
   if (dims_of(space) != Dims{std::uint64_t(n)} || !is_number(type))
     fail("Steps/Values must be " + std::to_string(n) + " numbers, as NSteps says, but has shape " +
          text_of(dims_of(space)));
+  check_storage(values, static_cast<double>(n), "Steps/Values");
   std::vector<double> times(n);
   if (H5Dread(values, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data()) < 0)
     fail("cannot read Steps/Values");
@@ -274,12 +334,12 @@ std::uint64_t VtkhdfFile::frame_offset(const std::string &array, int frame) cons
   const std::string path = "VTKHDF/Steps/PointDataOffsets/" + array;
   if (nsteps == 0 || !exists(file, "VTKHDF/Steps/PointDataOffsets") || !exists(file, path.c_str()))
     return frame;
-  const Handle offsets(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!offsets) fail("Steps/PointDataOffsets/" + array + " must be an array");
+  const Handle offsets(open_array(file, path, "Steps/PointDataOffsets/" + array), H5Dclose);
   const Handle space(H5Dget_space(offsets), H5Sclose), type(H5Dget_type(offsets), H5Tclose);
   if (dims_of(space) != Dims{nsteps} || H5Tget_class(type) != H5T_INTEGER)
     fail("Steps/PointDataOffsets/" + array + " must be " + std::to_string(nsteps) +
          " whole numbers, as NSteps says, but has shape " + text_of(dims_of(space)));
+  check_storage(offsets, static_cast<double>(nsteps), "Steps/PointDataOffsets/" + array);
   std::vector<long long> values(nsteps);
   if (H5Dread(offsets, H5T_NATIVE_LLONG, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     fail("cannot read Steps/PointDataOffsets/" + array);
@@ -328,19 +388,14 @@ std::vector<double> VtkhdfFile::read(const std::string &array, int components, i
     for (const auto &name : arrays()) list += " " + name;
     fail("has no point array " + array + "; it has" + (list.empty() ? " none" : list));
   }
-  const Handle data(H5Dopen2(points, array.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!data) fail("array " + array + " must be a dataset of HDF5");
+  const Handle data(open_array(points, array, "array " + array), H5Dclose);
   const Handle space(H5Dget_space(data), H5Sclose), type(H5Dget_type(data), H5Tclose);
   const std::size_t size = H5Tget_size(type);
   if (H5Tget_class(type) != H5T_FLOAT || (size != 4 && size != 8))
     fail("array " + array + " must be of type float or double");
   const Dims dims = dims_of(space);
   const Shape part = shape(array, dims, components, frame);
-  const double stored = H5Dget_storage_size(data);
-  if (stored == 0.0) fail("array " + array + " has no data");
-  if (stored * best_compression < double(image.nodes()) * components * size)
-    fail("array " + array + " has " + text_of(stored) + " bytes of data for " +
-         std::to_string(image.nodes()) + " nodes: it is not complete");
+  check_storage(data, static_cast<double>(image.nodes()) * components, "array " + array);
 
   std::vector<hsize_t> start(dims.size(), 0), count(dims.begin(), dims.end());
   if (part.has_time) {

@@ -12,6 +12,7 @@
 #ifndef APF_SCALES_H
 #define APF_SCALES_H
 
+#include "../contact/jkr.h"
 #include "../contact/stiffness.h"
 #include "../flow/stokes.h"
 
@@ -74,10 +75,10 @@ struct ContactScales {
     c.neck_length = normal.pulloff_overlap();
     c.contact_radius = normal.equilibrium_radius();
     c.rest_overlap = normal.equilibrium_overlap();
-    // (1/2) m V_s^2 = work from first touch (s^3 = 4 m^3) to the end of the neck, which is at m or,
-    // with break force, where the force is largest (s^3 = 3 m^3)
+    // (1/2) m V_s^2 = work from first touch (s^3 = 4 m^3) to the end of the neck
     const double touch = std::cbrt(4.0) * normal.neck;
-    const double end = normal.neck * (model.neck_end == Break::force ? std::cbrt(3.0) : 1.0);
+    const double end =
+        jkr_root(-model.neck_share() * normal.pulloff_overlap(), 1.0 / bodies.R, normal.neck);
     c.sticking_speed = std::sqrt(2.0 * (normal.energy(end) - normal.energy(touch)) / bodies.m);
     c.rest = stiffest_mode(model, bodies);
     Stiffest finest;

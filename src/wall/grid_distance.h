@@ -11,11 +11,14 @@
 #ifndef APF_GRID_DISTANCE_H
 #define APF_GRID_DISTANCE_H
 
+#include "../contact/pack.h"
 #include "../flow/lattice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace apf {
@@ -25,24 +28,26 @@ namespace apf {
 class GridDistance {
  public:
   static constexpr double error_constant = 35.0 / 1152.0;
+  using PerAxis = std::array<double, 3>;
 
   GridDistance() = default;
   // coefficients: size(lattice) numbers written by write_coefficients(), kept by the caller
-  GridDistance(const Lattice &lattice, const double *coefficients) : c(coefficients)
+  // jumps: what that returned
+  GridDistance(const Lattice &lattice, const double *coefficients, const PerAxis &jumps) :
+      c(coefficients), dims(lattice.dims)
   {
-    dims = lattice.dims;
     std::ptrdiff_t step = 1;
     for (int axis = 0; axis < dims; axis++) {
       origin[axis] = lattice.origin[axis];
       per_length[axis] = 1.0 / lattice.spacing[axis];
       cells[axis] = lattice.cells(axis);
       per_cells[axis] = lattice.periodic[axis] ? 1.0 / cells[axis] : 0.0;
-      half_diagonal += 0.25 * lattice.spacing[axis] * lattice.spacing[axis];
       widest = std::max(widest, lattice.spacing[axis]);
+      steepest[axis] = jumps[axis] * per_length[axis];
+      around += mean_way * jumps[axis];
       stride[axis] = step;
       step *= count(lattice, axis);
     }
-    half_diagonal = std::sqrt(half_diagonal);
   }
 
   static std::size_t size(const Lattice &lattice)
@@ -53,8 +58,10 @@ class GridDistance {
   }
 
   // nodes: signed distance at the nodes of the lattice                               [length]
-  static void write_coefficients(const Lattice &lattice, const std::vector<double> &nodes,
-                                 double *coefficients)
+  // Returns the largest differences of neighbors along each axis, both of them in the fluid: behind
+  // a wall, where a field goes on to its other side, numbers may jump.                 [length]
+  static PerAxis write_coefficients(const Lattice &lattice, const std::vector<double> &nodes,
+                                    double *coefficients)
   {
     std::vector<double> from = nodes, to;
     int n[3] = {lattice.n[0], lattice.n[1], lattice.n[2]};
@@ -64,105 +71,48 @@ class GridDistance {
       from.swap(to);
     }
     std::copy(from.begin(), from.end(), coefficients);
+    PerAxis jumps{};
+    std::size_t step = 1;
+    for (int axis = 0; axis < lattice.dims; axis++) {
+      for (std::size_t at = 0; at < from.size(); at++) {
+        if (at / step % n[axis] + 1 == static_cast<std::size_t>(n[axis])) continue;
+        const double a = from[at], b = from[at + step];
+        if (a > 0.0 && b > 0.0) jumps[axis] = std::max(jumps[axis], std::fabs(b - a));
+      }
+      step *= n[axis];
+    }
+    return jumps;
   }
 
   // signed distance, > 0 in the fluid; of the nearest point of the grid where x is outside of it
   double distance(const double *x) const
   {
-    Cell cell;
-    find(x, cell);
-    for (int axis = 0; axis < dims; axis++) value_weights(cell.part[axis], cell.w[axis]);
-    return dims == 3 ? sum3(cell, cell.w[0], cell.w[1], cell.w[2])
-                     : sum2(cell, cell.w[0], cell.w[1]);
+    return with_sums<0>(x, [](const auto &sums) {
+      return sums.value();
+    });
   }
 
   // the same, and its slope [3], which is the wall's normal where the field is a distance    [-]
   double distance(const double *x, double *slope) const
   {
-    Cell cell;
-    double d[3][4];
-    find(x, cell);
-    for (int axis = 0; axis < dims; axis++) {
-      value_weights(cell.part[axis], cell.w[axis]);
-      slope_weights(cell.part[axis], per_length[axis], d[axis]);
-    }
-    if (dims == 2) {
-      slope[0] = sum2(cell, d[0], cell.w[1]);
-      slope[1] = sum2(cell, cell.w[0], d[1]);
-      slope[2] = 0.0;
-      return sum2(cell, cell.w[0], cell.w[1]);
-    }
-    // rows along x are summed once for all four sums
-    double value = 0.0;
-    slope[0] = slope[1] = slope[2] = 0.0;
-    for (int k = 0; k < 4; k++) {
-      double row[2] = {}, row_dx = 0.0;    // summed with the weights of y and with their slopes
-      for (int j = 0; j < 4; j++) {
-        const double *p = cell.first + k * stride[2] + j * stride[1];
-        double sum = 0.0, sum_dx = 0.0;
-        for (int i = 0; i < 4; i++) {
-          sum += cell.w[0][i] * p[i];
-          sum_dx += d[0][i] * p[i];
-        }
-        row[0] += cell.w[1][j] * sum;
-        row[1] += d[1][j] * sum;
-        row_dx += cell.w[1][j] * sum_dx;
-      }
-      value += cell.w[2][k] * row[0];
-      slope[0] += cell.w[2][k] * row_dx;
-      slope[1] += cell.w[2][k] * row[1];
-      slope[2] += d[2][k] * row[0];
-    }
-    return value;
+    return with_sums<1>(x, [&](const auto &sums) {
+      sums.get_slope(slope);
+      return sums.value();
+    });
   }
 
-  // Curvatures of the surface of equal distance through x, the larger one first; > 0 where it bends
-  // away from the fluid (around a sphere in it). In the plane the second one is 0.     [1/length]
-  void curvatures(const double *x, double *kappa) const
+  // the same, and the two curvatures of the surface of equal distance through x, the larger one
+  // first; > 0 where it bends away from the fluid (around a sphere in it). In the plane the second
+  // one is 0.                                                                          [1/length]
+  double distance(const double *x, double *slope, double *kappa) const
   {
-    double slope[3], h[3][3] = {};
-    distance(x, slope);
-    Cell cell;
-    double d[3][4], dd[3][4];
-    find(x, cell);
-    for (int axis = 0; axis < dims; axis++) {
-      value_weights(cell.part[axis], cell.w[axis]);
-      slope_weights(cell.part[axis], per_length[axis], d[axis]);
-      second_weights(cell.part[axis], per_length[axis], dd[axis]);
-    }
-    for (int a = 0; a < dims; a++)
-      for (int b = 0; b <= a; b++) {
-        const double *w[3];
-        for (int axis = 0; axis < dims; axis++) {
-          const int order = (axis == a) + (axis == b);
-          w[axis] = order == 2 ? dd[axis] : order == 1 ? d[axis] : cell.w[axis];
-        }
-        h[a][b] = h[b][a] = dims == 3 ? sum3(cell, w[0], w[1], w[2]) : sum2(cell, w[0], w[1]);
-      }
-    const double size2 = slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2];
-    kappa[0] = kappa[1] = 0.0;
-    if (size2 == 0.0) return;
-    // trace and squared size of the part of h across the normal, which has two eigenvalues
-    double trace = 0.0, across = 0.0, bend[3] = {}, along = 0.0;
-    for (int a = 0; a < 3; a++) {
-      trace += h[a][a];
-      for (int b = 0; b < 3; b++) {
-        across += h[a][b] * h[a][b];
-        bend[a] += h[a][b] * slope[b];
-      }
-    }
-    for (int a = 0; a < 3; a++) along += bend[a] * slope[a] / size2;
-    for (double b : bend) across -= 2.0 * b * b / size2;
-    across += along * along;
-    trace -= along;
-    const double per_size = 1.0 / std::sqrt(size2);
-    if (dims == 2) {
-      kappa[0] = trace * per_size;
-      return;
-    }
-    const double spread = std::sqrt(std::max(2.0 * across - trace * trace, 0.0));
-    kappa[0] = 0.5 * (trace + (trace < 0.0 ? -spread : spread)) * per_size;
-    kappa[1] = 0.5 * (trace - (trace < 0.0 ? -spread : spread)) * per_size;
+    return with_sums<2>(x, [&](const auto &sums) {
+      double h[3][3];
+      sums.get_slope(slope);
+      sums.get_bend(h);
+      find_curvatures(slope, h, kappa);
+      return sums.value();
+    });
   }
 
   // What the nodes around a node say about the error of the distance there, if they stood `apart`
@@ -199,90 +149,188 @@ class GridDistance {
       const int i = index(axis, x[axis], s);
       p += (i + margin + (s > 0.5)) * stride[axis];
     }
-    return *p - half_diagonal - slack * widest;
+    return *p - around;
   }
+  // the distance changes by no more than this times the way along each axis, in the fluid      [-]
+  const PerAxis &steepness() const { return steepest; }
 
  private:
   static constexpr int margin = 1;
-  static constexpr double slack = 0.5;    // coefficients differ from distances, at kinks by h/3
+  // A number of the field is a mean of coefficients, which stand so far from the nearest node on
+  // average, at most: 1/48 + 23/48 + 2/48 midway between two                          [spacings]
+  static constexpr double mean_way = 26.0 / 48.0;
 
   const double *c = nullptr;
   int dims = 3;
   double origin[3] = {}, per_length[3] = {};
   double cells[3] = {}, per_cells[3] = {};    // number of cells; 1/cells if periodic, else 0
   std::ptrdiff_t stride[3] = {};
-  double half_diagonal = 0.0, widest = 0.0;    // of a cell, of the spacings             [length]
+  double widest = 0.0;    // of the spacings                                           [length]
+  double around = 0.0;    // largest difference of a number and the nearest coefficient [length]
+  PerAxis steepest{};
 
-  struct Cell {
-    const double *first;    // of 4 x 4 x 4 coefficients
-    double part[3];         // position in the cell, in [0, 1]
-    double w[3][4];
+  // four numbers that are neighbors along x
+  struct Row {
+    Pair low{}, high{};
+
+    static Row at(const double *p)
+    {
+      Row row;
+      std::memcpy(&row.low, p, sizeof(Pair));
+      std::memcpy(&row.high, p + 2, sizeof(Pair));
+      return row;
+    }
+    void add(double weight, const Row &row)
+    {
+      const Pair w = {weight, weight};
+      low += w * row.low;
+      high += w * row.high;
+    }
+    double sum(const double *w) const
+    {
+      const Pair s = Pair{w[0], w[1]} * low + Pair{w[2], w[3]} * high;
+      return s[0] + s[1];
+    }
   };
+
+  // The sums over the 4 x 4 x 4 coefficients around a point, for derivatives up to an order. Rows
+  // along x are added up with the weights along y and z, once for all derivatives along x.
+  template <int order, int dims> class Sums {
+   public:
+    Sums(const GridDistance &grid, const double *x)
+    {
+      const double *first = grid.c;
+      for (int axis = 0; axis < dims; axis++) {
+        double part;
+        first += grid.index(axis, x[axis], part) * grid.stride[axis];
+        set_weights(part, grid.per_length[axis], w[axis]);
+      }
+      constexpr int layers = dims == 3 ? 4 : 1;
+      for (int z = 0; dims == 2 && z <= order; z++) w[2][z][0] = z == 0;
+      Row sum, y, z, yy, yz, zz;    // kept in registers
+      for (int k = 0; k < layers; k++) {
+        const double *p = first + k * grid.stride[2];
+        Row plane, slope, bend;    // of this layer, along y
+        for (int j = 0; j < 4; j++) {
+          const Row row = Row::at(p + j * grid.stride[1]);
+          plane.add(w[1][0][j], row);
+          if constexpr (order >= 1) slope.add(w[1][1][j], row);
+          if constexpr (order >= 2) bend.add(w[1][2][j], row);
+        }
+        sum.add(w[2][0][k], plane);
+        if constexpr (order >= 1) {
+          y.add(w[2][0][k], slope);
+          z.add(w[2][1][k], plane);
+        }
+        if constexpr (order >= 2) {
+          yy.add(w[2][0][k], bend);
+          yz.add(w[2][1][k], slope);
+          zz.add(w[2][2][k], plane);
+        }
+      }
+      rows[0][0] = sum;
+      if constexpr (order >= 1) {
+        rows[1][0] = y;
+        rows[0][1] = z;
+      }
+      if constexpr (order >= 2) {
+        rows[2][0] = yy;
+        rows[1][1] = yz;
+        rows[0][2] = zz;
+      }
+    }
+
+    double value() const { return derivative(0, 0, 0); }
+    void get_slope(double *slope) const
+    {
+      slope[0] = derivative(1, 0, 0);
+      slope[1] = derivative(0, 1, 0);
+      slope[2] = derivative(0, 0, 1);
+    }
+    void get_bend(double (*h)[3]) const
+    {
+      for (int a = 0; a < 3; a++)
+        for (int b = 0; b <= a; b++)
+          h[a][b] = h[b][a] =
+              derivative((a == 0) + (b == 0), (a == 1) + (b == 1), (a == 2) + (b == 2));
+    }
+
+   private:
+    double w[3][order + 1][4];         // of axes, orders, coefficients
+    Row rows[order + 1][order + 1];    // by the orders along y and z
+
+    double derivative(int x, int y, int z) const { return rows[y][z].sum(w[0][x]); }
+
+    // t: position in the cell, in [0, 1]. Values add up to 1, slopes and bends to 0.
+    static void set_weights(double t, double per_length, double (*w)[4])
+    {
+      constexpr double sixth = 1.0 / 6.0;
+      const double u = 1.0 - t, t2 = t * t, u2 = u * u;
+      w[0][0] = sixth * u2 * u;
+      w[0][1] = 4.0 * sixth - t2 * (1.0 - 0.5 * t);
+      w[0][3] = sixth * t2 * t;
+      w[0][2] = (1.0 - w[0][1]) - (w[0][0] + w[0][3]);
+      if constexpr (order >= 1) {
+        const double half = 0.5 * per_length;
+        w[1][0] = -half * u2;
+        w[1][3] = half * t2;
+        w[1][1] = per_length * t * (1.5 * t - 2.0);
+        w[1][2] = -w[1][1] - (w[1][0] + w[1][3]);
+      }
+      if constexpr (order >= 2) {
+        const double q = per_length * per_length;
+        w[2][0] = u * q;
+        w[2][3] = t * q;
+        w[2][1] = w[2][3] - 2.0 * w[2][0];
+        w[2][2] = w[2][0] - 2.0 * w[2][3];
+      }
+    }
+  };
+
+  template <int order, class Use> double with_sums(const double *x, const Use &use) const
+  {
+    return dims == 3 ? use(Sums<order, 3>(*this, x)) : use(Sums<order, 2>(*this, x));
+  }
+
+  // of a field with this slope and these second derivatives
+  void find_curvatures(const double *slope, const double (*h)[3], double *kappa) const
+  {
+    const double size2 = slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2];
+    kappa[0] = kappa[1] = 0.0;
+    if (size2 == 0.0) return;
+    // trace and squared size of the part of h across the normal, which has two eigenvalues
+    double trace = 0.0, across = 0.0, bend[3] = {}, along = 0.0;
+    for (int a = 0; a < 3; a++) {
+      trace += h[a][a];
+      for (int b = 0; b < 3; b++) {
+        across += h[a][b] * h[a][b];
+        bend[a] += h[a][b] * slope[b];
+      }
+    }
+    for (int a = 0; a < 3; a++) along += bend[a] * slope[a] / size2;
+    for (double b : bend) across -= 2.0 * b * b / size2;
+    across += along * along;
+    trace -= along;
+    const double per_size = 1.0 / std::sqrt(size2);
+    if (dims == 2) {
+      kappa[0] = trace * per_size;
+      return;
+    }
+    const double spread = std::sqrt(std::max(2.0 * across - trace * trace, 0.0));
+    kappa[0] = 0.5 * (trace + (trace < 0.0 ? -spread : spread)) * per_size;
+    kappa[1] = 0.5 * (trace - (trace < 0.0 ? -spread : spread)) * per_size;
+  }
 
   static int count(const Lattice &lattice, int axis) { return lattice.cells(axis) + 3; }
 
   int index(int axis, double x, double &part) const
   {
     double s = (x - origin[axis]) * per_length[axis];
-    s -= cells[axis] * std::floor(s * per_cells[axis]);
+    if (per_cells[axis] != 0.0) s -= cells[axis] * std::floor(s * per_cells[axis]);
     s = std::min(std::max(s, 0.0), cells[axis]);
     const int i = std::min(static_cast<int>(s), static_cast<int>(cells[axis]) - 1);
     part = s - i;
     return i;
-  }
-  void find(const double *x, Cell &cell) const
-  {
-    cell.first = c;
-    for (int axis = 0; axis < dims; axis++)
-      cell.first += index(axis, x[axis], cell.part[axis]) * stride[axis];
-  }
-
-  static void value_weights(double t, double *w)
-  {
-    const double u = 1.0 - t, t2 = t * t, u2 = u * u;
-    w[0] = u2 * u / 6.0;
-    w[1] = (4.0 - 3.0 * t2 * (2.0 - t)) / 6.0;
-    w[2] = (4.0 - 3.0 * u2 * (2.0 - u)) / 6.0;
-    w[3] = t2 * t / 6.0;
-  }
-  static void slope_weights(double t, double per_length, double *w)
-  {
-    const double u = 1.0 - t;
-    w[0] = -0.5 * u * u * per_length;
-    w[1] = -0.5 * t * (4.0 - 3.0 * t) * per_length;
-    w[2] = 0.5 * u * (4.0 - 3.0 * u) * per_length;
-    w[3] = 0.5 * t * t * per_length;
-  }
-  static void second_weights(double t, double per_length, double *w)
-  {
-    const double q = per_length * per_length;
-    w[0] = (1.0 - t) * q;
-    w[1] = (3.0 * t - 2.0) * q;
-    w[2] = (1.0 - 3.0 * t) * q;
-    w[3] = t * q;
-  }
-
-  double sum2(const Cell &cell, const double *wx, const double *wy) const
-  {
-    double sum = 0.0;
-    for (int j = 0; j < 4; j++) {
-      const double *p = cell.first + j * stride[1];
-      sum += wy[j] * (wx[0] * p[0] + wx[1] * p[1] + wx[2] * p[2] + wx[3] * p[3]);
-    }
-    return sum;
-  }
-  double sum3(const Cell &cell, const double *wx, const double *wy, const double *wz) const
-  {
-    double sum = 0.0;
-    for (int k = 0; k < 4; k++) {
-      double plane = 0.0;
-      for (int j = 0; j < 4; j++) {
-        const double *p = cell.first + k * stride[2] + j * stride[1];
-        plane += wy[j] * (wx[0] * p[0] + wx[1] * p[1] + wx[2] * p[2] + wx[3] * p[3]);
-      }
-      sum += wz[k] * plane;
-    }
-    return sum;
   }
 
   // Applies the filter along an axis. Beyond a border that is not periodic the nodes go on as a

@@ -30,13 +30,11 @@ struct GridSurvey {
     GridSurvey survey;
     double sum[2] = {}, squares[2] = {};
     for_each_node(lattice, [&](int i, int j, int k, std::size_t) {
-      const int index[3] = {i, j, k};
-      double x[3] = {};
-      for (int axis = 0; axis < lattice.dims; axis++)
-        x[axis] = lattice.origin[axis] + index[axis] * lattice.spacing[axis];
+      double x[3];
+      lattice.position(i, j, k, x);
       if (grid.at_least(x) > at_most) return;
-      double slope[3];
-      const double phi = grid.distance(x, slope);
+      double slope[3], kappa[2];
+      const double phi = grid.distance(x, slope, kappa);
       if (phi < at_least || phi > at_most || !reached(x)) return;
       survey.nodes++;
       double h, of_twice;
@@ -48,8 +46,6 @@ struct GridSurvey {
       const double size =
           std::sqrt(slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2]);
       note(std::fabs(size - 1.0), x, survey.slope_error, survey.slope_at);
-      double kappa[2];
-      grid.curvatures(x, kappa);
       for (int c = 0; c < 2; c++) {
         const double of_wall = kappa[c] / std::max(1.0 - phi * kappa[c], least_share);
         sum[c] += of_wall;

@@ -48,13 +48,12 @@ class Isosurface {
     Point at[corners];
     bool any = false, all = true;
     for (int c = 0; c < corners; c++) {
-      int node[3] = {};
-      at[c] = {};
+      int index[3] = {}, node[3] = {};
       for (int axis = 0; axis < dims; axis++) {
-        const int index = cell[axis] + (c >> axis & 1);
-        node[axis] = grid.wrap(axis, index);
-        at[c][axis] = grid.origin[axis] + index * grid.spacing[axis];
+        index[axis] = cell[axis] + (c >> axis & 1);
+        node[axis] = grid.wrap(axis, index[axis]);
       }
+      grid.position(index[0], index[1], index[2], at[c].data());
       value[c] = f[grid.node(node[0], node[1], node[2])];
       any = any || value[c] < 0.0;
       all = all && value[c] < 0.0;

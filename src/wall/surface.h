@@ -55,14 +55,25 @@ struct Surface {
     return side * (axis_distance(x) - radius);
   }
 
-  // whether x is farther away; may say no where it is, but takes less time than the distance
-  bool farther(const double *x, double than) const
+  // the distance, or of a grid a bound below it that takes less time
+  double at_least(const double *x) const
   {
-    return shape == Shape::grid ? grid.at_least(x) > than : distance(x) > than;
+    return shape == Shape::grid ? grid.at_least(x) : distance(x);
+  }
+  bool farther(const double *x, double than) const { return at_least(x) > than; }
+
+  // the distance changes by no more than this times the way along each axis             [-]
+  GridDistance::PerAxis steepness() const
+  {
+    if (shape == Shape::grid) return grid.steepness();
+    GridDistance::PerAxis steepest{};
+    for (int c = 0; c < 3; c++) steepest[c] = (shape == Shape::plane) == (c == dim) ? 1.0 : 0.0;
+    return steepest;
   }
 
-  // On a cylinder's axis the foot is not unique: any is taken.
-  Foot foot(const double *x) const
+  // On a cylinder's axis the foot is not unique: any is taken. kappa: if given, gets the curvatures
+  // of the surface of equal distance through x, the larger one first.
+  Foot foot(const double *x, double *kappa = nullptr) const
   {
     Foot foot{0.0, {x[0], x[1], x[2]}, true};
     if (shape == Shape::plane) {
@@ -78,7 +89,7 @@ struct Surface {
       foot.at[d2] = origin[1] + radius * e2;
     } else {
       double slope[3];
-      foot.distance = grid.distance(x, slope);
+      foot.distance = kappa ? grid.distance(x, slope, kappa) : grid.distance(x, slope);
       const double size =
           std::sqrt(slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2]);
       foot.exists = size > least_slope;
@@ -89,16 +100,15 @@ struct Surface {
     return foot;
   }
 
-  // How fast the normal of a particle of radius r at x turns as it moves along: r times the
-  // curvature of its path, < 0 inside a cylinder, where the normal points outward [-]
-  double turning(const double *x, double r) const
+  // How fast the normal of a particle of radius r turns as it moves along: r times the curvature of
+  // its path, kappa, which counts where it is not the same everywhere; < 0 inside a cylinder, where
+  // the normal points outward [-]
+  double turning(double kappa, double r) const
   {
     if (uniform) return r * curvature[0] / (1.0 + r * curvature[0]);
-    double kappa[2];
-    grid.curvatures(x, kappa);
     // of an edge that is rolled over at the distance r: 1. Rounded, so that contacts at places that
     // are nearly alike are of one kind.
-    return std::round(16.0 * std::clamp(r * kappa[0], -largest_turning, largest_turning)) / 16.0;
+    return std::round(16.0 * std::clamp(r * kappa, -largest_turning, largest_turning)) / 16.0;
   }
 
   // Effective radius of the contact of a sphere of radius r: geometric mean of those along the two

@@ -48,6 +48,9 @@ struct Carrier {
     return y - distance(y) * normal(y);
   }
 
+  // the center, or the nearest point of the axis; of a plane the point itself
+  Point middle(const Point &x) const { return kind == Kind::plane ? x : x - across(x); }
+
   // 1 or -1 if the other one is the same surface, with the same or the opposite normal, else 0
   int same_as(const Carrier &other, double tolerance) const
   {

@@ -38,6 +38,9 @@ void FacetWall::find_pieces()
     for (int k = 0; k < 3; k++)
       if (smooth.facets[t].edge[k] == Edge::smooth || smooth.facets[t].edge[k] == Edge::convex)
         joined.unite(t, smooth.facets[t].neighbor[k]);
+  std::map<int, int> copies;    // of each source, one
+  for (int t = 0; t < count; t++)
+    joined.unite(t, copies.try_emplace(surface.source[t], t).first->second);
   std::map<int, int> number;
   std::vector<std::map<int, double>> areas;    // of each piece: of its zones
   for (int t = 0; t < count; t++) {

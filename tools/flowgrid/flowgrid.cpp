@@ -52,6 +52,8 @@ Grid make_grid(const Options &o, const Point &low, const Point &high, bool flat_
     double b = o.bounds.empty() ? high[c] : o.bounds[2 * c + 1];
     grid.spacing[c] = o.spacing[c];
     if (flat && c == 2) {
+      if (o.periodic[2])
+        throw std::runtime_error(o.output + ": --periodic z needs a grid in space");
       grid.origin[c] = flat_mesh ? low[2] : o.planar;
       if (!flat_mesh && !o.input.empty() && (o.planar < low[2] || o.planar > high[2]))
         throw std::runtime_error(o.input + ": --planar must lie within the mesh, " +
@@ -72,6 +74,10 @@ Grid make_grid(const Options &o, const Point &low, const Point &high, bool flat_
       throw std::runtime_error(o.output + ": --spacing " + std::to_string(o.spacing[c]) +
                                " along " + std::string(1, "xyz"[c]) +
                                " is wider than the bounds, " + std::to_string(b - a));
+    if (o.periodic[c] && std::fabs(b - a - (count - 1.0) * o.spacing[c]) > 1e-6 * o.spacing[c])
+      throw std::runtime_error(o.output + ": --periodic " + std::string(1, "xyz"[c]) +
+                               " needs a --spacing that divides the length of the grid, " +
+                               std::to_string(b - a));
     grid.n[c] = static_cast<int>(count);
     grid.origin[c] = a;
   }

@@ -7,6 +7,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkReverseSense.h>
 #include <vtkSTLWriter.h>
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -45,11 +46,14 @@ long write_isosurface(const std::string &path, const Grid &grid,
   triangles->PassLinesOff();
   triangles->PassVertsOff();
   triangles->SetInputConnection(clean->GetOutputPort());
-  triangles->Update();
+  vtkNew<vtkReverseSense> into_fluid;    // normals, as those of --wall-surface
+  into_fluid->ReverseCellsOn();
+  into_fluid->SetInputConnection(triangles->GetOutputPort());
+  into_fluid->Update();
 
   const auto write = [&](auto *writer) {
     writer->SetFileName(path.c_str());
-    writer->SetInputData(triangles->GetOutput());
+    writer->SetInputData(into_fluid->GetOutput());
     if (!writer->Write()) throw std::runtime_error(path + ": cannot be written");
   };
   if (path.size() > 4 && path.compare(path.size() - 4, 4, ".stl") == 0) {
@@ -60,7 +64,7 @@ long write_isosurface(const std::string &path, const Grid &grid,
     vtkNew<vtkXMLPolyDataWriter> writer;
     write(writer.Get());
   }
-  return static_cast<long>(triangles->GetOutput()->GetNumberOfCells());
+  return static_cast<long>(into_fluid->GetOutput()->GetNumberOfCells());
 }
 
 }    // namespace flowgrid

@@ -26,9 +26,32 @@ namespace {
     return text;
   }
 
+  // Along periods the last node is the first one again.
+  std::vector<double> fill(const Grid &grid, const Periods &periods,
+                           const std::vector<double> &known, double band)
+  {
+    auto lattice = lattice_of(grid);
+    for (int c = 0; c < lattice.dims; c++) {
+      lattice.periodic[c] = periods.along(c);
+      lattice.n[c] -= periods.along(c);
+    }
+    std::vector<double> different;
+    apf::for_each_node(lattice, [&](int i, int j, int k, size_t) {
+      different.push_back(known[i + size_t(grid.n[0]) * (j + size_t(grid.n[1]) * k)]);
+    });
+    const auto filled = apf::FastMarching::fill(lattice, different, band);
+    std::vector<double> all;
+    for (int k = 0; k < grid.n[2]; k++)
+      for (int j = 0; j < grid.n[1]; j++)
+        for (int i = 0; i < grid.n[0]; i++)
+          all.push_back(filled[lattice.node(i % lattice.n[0], j % lattice.n[1], k % lattice.n[2])]);
+    return all;
+  }
+
 }    // namespace
 
-LevelSet::LevelSet(const Wall &wall, const Grid &grid, double exact, double band)
+LevelSet::LevelSet(const Wall &wall, const Grid &grid, const Periods &periods, double exact,
+                   double band)
 {
   const auto lattice = lattice_of(grid);
   const auto near = seeds(grid, [&](const Point &x) {
@@ -36,7 +59,7 @@ LevelSet::LevelSet(const Wall &wall, const Grid &grid, double exact, double band
   });
   for (const double value : near) seeded += !std::isnan(value);
   if (!seeded) throw std::runtime_error("no wall lies within the grid or near it");
-  all = apf::FastMarching::fill(lattice, near, band);
+  all = fill(grid, periods, near, band);
 
   share_arrays(wall, band);
   const double tiny = 1e-9 * lattice.spacing[0];
@@ -50,7 +73,7 @@ LevelSet::LevelSet(const Wall &wall, const Grid &grid, double exact, double band
       }
       return nearest;
     });
-    array.values = apf::FastMarching::fill(lattice, known, band);
+    array.values = fill(grid, periods, known, band);
     for (size_t node = 0; node < all.size(); node++) {
       double &value = array.values[node];
       if (all[node] > -tiny && value < -2.0 * tiny) value = band;    // another side of a thin wall

@@ -4,6 +4,7 @@
 #ifndef FLOWGRID_LEVEL_SET_H
 #define FLOWGRID_LEVEL_SET_H
 
+#include "periods.h"
 #include "wall.h"
 
 #include "../../src/wall/fast_marching.h"
@@ -24,7 +25,7 @@ class LevelSet {
   // exact: distances up to this one are the wall's own                                [length]
   // band: farther ones are cut off                                                    [length]
   // Throws std::runtime_error if the pieces do not make up the wall, or are too many.
-  LevelSet(const Wall &wall, const Grid &grid, double exact, double band);
+  LevelSet(const Wall &wall, const Grid &grid, const Periods &periods, double exact, double band);
 
   const std::vector<double> &whole() const { return all; }
   const std::vector<DistanceArray> &arrays() const { return list; }

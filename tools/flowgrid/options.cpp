@@ -43,6 +43,7 @@ Walls, of which signed distances are written, > 0 in the fluid:
   --exact W                  distances up to W are exact (default: D, or 4 cells)
   --band N                   width of the band, cells (default 20)
   --crease DEGREES           walls that turn by more toward the fluid are cut there (default 30)
+  --periodic x | y | z | xy  walls repeat themselves along these axes with the length of the grid
   --isosurface FILE          .vtp or .stl: the wall as triangles
 
 Exit status: 0 done, 1 input or output cannot be used, 2 wrong words.
@@ -132,6 +133,12 @@ Options parse(int argc, char **argv)
     } else if (word == "--crease") {
       o.crease = positive(word);
       if (o.crease >= 180.0) usage("--crease must be < 180, got " + std::string(argv[i]));
+    } else if (word == "--periodic") {
+      for (const char axis : std::string(value(word))) {
+        if (axis < 'x' || axis > 'z')
+          usage("--periodic takes x, y, z, got " + std::string(argv[i]));
+        o.periodic[axis - 'x'] = true;
+      }
     } else if (word == "--distance") {
       o.mesh_walls = true;
     } else if (word == "--compress") {

@@ -5,6 +5,7 @@
 
 #include "vector.h"
 
+#include <array>
 #include <string>
 
 namespace flowgrid {
@@ -20,6 +21,7 @@ struct Options {
   double exact = 0.0;       // distances that are exact, 0: default                    [length]
   double band = 20.0;       // [cells]
   double crease = 30.0;     // [degrees]
+  std::array<bool, 3> periodic{};    // walls go on beyond the grid as at its other end
   bool compress = false, mesh_walls = false;
 
   bool has_walls() const { return mesh_walls || !shapes.empty() || !surfaces.empty(); }

@@ -15,7 +15,10 @@ namespace {
 
   class Parser {
    public:
-    Parser(const std::string &text, ShapeTree &tree) : text(text), tree(tree) {}
+    Parser(const std::string &text, const Periods &periods, ShapeTree &tree) :
+        text(text), periods(periods), tree(tree)
+    {
+    }
 
     void parse()
     {
@@ -34,6 +37,7 @@ namespace {
 
    private:
     const std::string &text;
+    const Periods &periods;
     ShapeTree &tree;
     size_t at = 0;
 
@@ -129,34 +133,70 @@ namespace {
         const double high = number();
         expect(',');
         if (!(low < high)) stop("extrude needs Z1 < Z2");
-        return tree.both({shape(), plane({0, 0, low}, {0, 0, -1}), plane({0, 0, high}, {0, 0, 1})});
+        const int of = shape();
+        return tree.both(
+            {of, copied([&] {
+               return tree.both({plane({0, 0, low}, {0, 0, -1}), plane({0, 0, high}, {0, 0, 1})});
+             })});
       }
       if (name == "plane") {
         const auto v = numbers(name, 6);
         const Point normal{v[3], v[4], v[5]};
         if (!(length(normal) > 0.0)) stop("the normal of a plane must not be 0");
+        if (periods.crossed_by(normal)) stop("a plane across a --periodic direction cannot repeat");
         return plane(point(v, 0), unit(normal));
       }
       if (name == "sphere") {
         const auto v = numbers(name, 4);
-        return tree.half_space({Carrier::Kind::sphere, point(v, 0), {}, radius(v[3])});
+        return copied([&] {
+          return tree.half_space({Carrier::Kind::sphere, point(v, 0), {}, radius(v[3])});
+        });
       }
       if (name == "disc") {
         const auto v = numbers(name, 3);
-        return tree.half_space({Carrier::Kind::cylinder, {v[0], v[1], 0}, {0, 0, 1}, radius(v[2])});
+        return copied([&] {
+          return tree.half_space(
+              {Carrier::Kind::cylinder, {v[0], v[1], 0}, {0, 0, 1}, radius(v[2])});
+        });
       }
-      if (name == "cylinder") return cylinder(numbers(name, 7));
+      if (name == "cylinder") {
+        const auto v = numbers(name, 7);
+        return copied([&] {
+          return cylinder(v);
+        });
+      }
       if (name == "box") {
         const auto v = numbers(name, 6);
-        return slabs(point(v, 0), point(v, 3), 3);
+        return copied([&] {
+          return slabs(point(v, 0), point(v, 3), 3);
+        });
       }
       if (name == "rectangle") {
         const auto v = numbers(name, 4);
-        return slabs({v[0], v[1], 0}, {v[2], v[3], 0}, 2);
+        return copied([&] {
+          return slabs({v[0], v[1], 0}, {v[2], v[3], 0}, 2);
+        });
       }
-      if (name == "polygon") return polygon(numbers(name, 0));
+      if (name == "polygon") {
+        const auto v = numbers(name, 0);
+        return copied([&] {
+          return polygon(v);
+        });
+      }
       at = begin;
       stop("there is no shape " + name + "; there are " + known);
+    }
+
+    // the union of what make() returns, a node, at all places where it repeats itself
+    template <class Make> int copied(const Make &make)
+    {
+      std::vector<int> copies;
+      for (const Point &shift : periods.shifts()) {
+        tree.put(shift);
+        copies.push_back(make());
+      }
+      tree.put({});
+      return copies.size() == 1 ? copies[0] : tree.either(copies);
     }
 
     Point point(const std::vector<double> &v, size_t first) const
@@ -215,9 +255,9 @@ void check_zone_name(const std::string &name)
   if (name.empty()) throw std::runtime_error("a wall needs a name");
 }
 
-void parse_shape(const std::string &text, ShapeTree &tree)
+void parse_shape(const std::string &text, const Periods &periods, ShapeTree &tree)
 {
-  Parser(text, tree).parse();
+  Parser(text, periods, tree).parse();
 }
 
 }    // namespace flowgrid

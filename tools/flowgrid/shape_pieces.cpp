@@ -20,7 +20,7 @@ struct ShapeWall::Survey {
   std::map<std::pair<int, int>, Counts> meetings;
 };
 
-ShapeWall::ShapeWall(ShapeTree solids, const Grid &grid, double turning) :
+ShapeWall::ShapeWall(ShapeTree solids, const Grid &grid, const Periods &periods, double turning) :
     tree(std::move(solids)), planar(grid.n[2] == 1), size(0.0), piece(tree.carriers.size(), -1),
     across(tree.carriers.size(), false), face(tree.size(), false)
 {
@@ -51,7 +51,7 @@ ShapeWall::ShapeWall(ShapeTree solids, const Grid &grid, double turning) :
           for (size_t b = a + 1; b < near.size(); b++)
             note_meeting(near[a], near[b], x, grid, turning, survey);
       }
-  make_pieces(survey);
+  make_pieces(survey, periods);
 }
 
 void ShapeWall::check_planar() const
@@ -133,14 +133,14 @@ void ShapeWall::note_meeting(int a, int b, const Point &x, const Grid &grid, dou
   Meeting found = Meeting::none;
   if (nearest_point(pair, 2, x, y)) {
     if (length(y - x) < reach) found = meeting(a, b, y, turning);
-  } else {
-    // they may touch: smoothly if they do so with equal normals
-    y = pair[0]->foot(x);
   }
   if (found == Meeting::none) {
-    y = pair[0]->foot(x);
+    // they may touch, on the line between their middles: smoothly if they do so with equal normals
+    const bool curved = pair[1]->kind != Carrier::Kind::plane;
+    y = pair[!curved]->foot(pair[curved]->middle(x));
+    y = pair[0]->foot(y);
     const Point z = pair[1]->foot(y);
-    if (length(y - z) < 0.01 * reach &&
+    if (length(y - x) < reach && length(y - z) < 0.01 * reach &&
         std::fabs(dot(pair[0]->normal(y), pair[1]->normal(z))) > 0.99) {
       Sides at_y = sides(y, on_surface * size), at_z = sides(z, on_surface * size);
       const auto outward = [&](Sides &side, int c, int other) {
@@ -185,8 +185,8 @@ ShapeWall::Meeting ShapeWall::meeting(int a, int b, const Point &y, double turni
   return angle(n, m) > turning ? Meeting::concave : Meeting::smooth;
 }
 
-// Faces that meet in other than concave edges are one piece.
-void ShapeWall::make_pieces(Survey &survey)
+// Faces that meet in other than concave edges are one piece, and so are a face and its copies.
+void ShapeWall::make_pieces(Survey &survey, const Periods &periods)
 {
   UnionFind joined(static_cast<int>(piece.size()));
   for (const auto &[pair, counts] : survey.meetings)
@@ -194,6 +194,14 @@ void ShapeWall::make_pieces(Survey &survey)
             counts.of[static_cast<int>(Meeting::smooth)] >
         counts.of[static_cast<int>(Meeting::concave)])
       joined.unite(pair.first, pair.second);
+  for (const Point &shift : periods.shifts())
+    for (size_t c = 0; c < piece.size(); c++) {
+      Carrier copy = tree.carriers[c];
+      copy.origin = copy.origin + shift;
+      for (size_t other = 0; other < c; other++)
+        if (copy.same_as(tree.carriers[other], 1e-9 * size))
+          joined.unite(static_cast<int>(c), static_cast<int>(other));
+    }
   std::map<int, int> number;
   std::map<int, std::map<std::string, int>> zones;
   for (size_t c = 0; c < piece.size(); c++) {

@@ -21,9 +21,13 @@ class ShapeTree {
   std::vector<Solid> solids;    // their union is the wall
   std::vector<Carrier> carriers;
 
+  // Half spaces from now on are moved by this.
+  void put(const Point &shift) { moved = shift; }
+
   // Each returns a node. The solid side of a carrier is its negative one.
-  int half_space(const Carrier &carrier)
+  int half_space(Carrier carrier)
   {
+    carrier.origin = carrier.origin + moved;
     int index = 0, sign = 0;
     for (; index < static_cast<int>(carriers.size()); index++)
       if ((sign = carriers[index].same_as(carrier, coincident * (1.0 + length(carrier.origin)))))
@@ -93,6 +97,7 @@ class ShapeTree {
     signed char sign;
   };
   std::vector<Node> nodes;
+  Point moved{};
 
   int add(Node node)
   {

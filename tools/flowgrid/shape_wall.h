@@ -4,6 +4,7 @@
 #ifndef FLOWGRID_SHAPE_WALL_H
 #define FLOWGRID_SHAPE_WALL_H
 
+#include "periods.h"
 #include "shape_tree.h"
 #include "wall.h"
 
@@ -13,9 +14,10 @@ namespace flowgrid {
 
 class ShapeWall : public Wall {
  public:
+  // periods: with copies of the solids; grid: wide enough for them
   // turning: of the surface toward the fluid beyond which it is cut at an edge   [radians]
   // Throws std::runtime_error if no part of the wall lies in the grid.
-  ShapeWall(ShapeTree solids, const Grid &grid, double turning);
+  ShapeWall(ShapeTree solids, const Grid &grid, const Periods &periods, double turning);
 
   double distance(const Point &x, double limit) const override;
   double distance(int piece, const Point &x, double limit) const override;
@@ -49,7 +51,7 @@ class ShapeWall : public Wall {
   void note_face(int carrier, const Sides &side, Survey &);
   void note_meeting(int a, int b, const Point &x, const Grid &grid, double turning, Survey &) const;
   Meeting meeting(int a, int b, const Point &y, double turning) const;
-  void make_pieces(Survey &);
+  void make_pieces(Survey &, const Periods &);
 
   Sides sides(const Point &x, double on) const;
   signed char at(const Sides &side) const;

@@ -101,6 +101,7 @@ namespace {
             surface.triangles[t] = {p, of[0], r};
             surface.triangles.push_back({of[0], q, r});
             surface.zone.push_back(surface.zone[t]);
+            surface.source.push_back(surface.source[t]);
             gone.push_back(false);
             t = gone.size();
             break;
@@ -192,10 +193,12 @@ void Surface::remove(const std::vector<bool> &which)
   for (size_t t = 0; t < triangles.size(); t++) {
     if (which[t]) continue;
     triangles[kept] = triangles[t];
+    source[kept] = source[t];
     zone[kept++] = zone[t];
   }
   triangles.resize(kept);
   zone.resize(kept);
+  source.resize(kept);
 }
 
 std::vector<std::array<int, 3>> neighbors_of(const std::vector<std::array<int, 3>> &triangles,

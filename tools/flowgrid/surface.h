@@ -11,6 +11,7 @@ struct Surface {
   std::vector<Point> points;
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> zone;             // of each triangle
+  std::vector<int> source;           // of each triangle: which one it is a copy or a part of
   std::vector<std::string> zones;    // their names
   bool is_strip = false;             // of walls in a plane, drawn out along z
   bool may_end = false;              // within the grid, as walls of a mesh do at an inlet
@@ -21,6 +22,19 @@ struct Surface {
     points.insert(points.end(), {a, b, c});
     triangles.push_back({first, first + 1, first + 2});
     zone.push_back(of_zone);
+    source.push_back(static_cast<int>(source.size()));
+  }
+  // adds copies, moved by all but the first of these
+  void add_copies(const std::vector<Point> &shifts)
+  {
+    const size_t count = triangles.size();
+    for (size_t k = 1; k < shifts.size(); k++)
+      for (size_t t = 0; t < count; t++) {
+        const auto corners = triangles[t];
+        add(points[corners[0]] + shifts[k], points[corners[1]] + shifts[k],
+            points[corners[2]] + shifts[k], zone[t]);
+        source.back() = source[t];
+      }
   }
   Point normal(int t) const    // twice the area long
   {

@@ -35,6 +35,7 @@ namespace {
                                    const std::string &what)
   {
     const Widths width(o, grid);
+    const Periods periods(o.periodic, grid);
     try {
       auto done = make_whole(surface, grid);
       if (grid.n[2] == 1 && !surface.is_strip) {
@@ -43,6 +44,8 @@ namespace {
         make_whole(surface, grid);
       }
       const int count = static_cast<int>(surface.triangles.size());
+      surface.add_copies(periods.shifts());
+      make_whole(surface, grid);
       auto wall = std::make_unique<FacetWall>(surface, grid, o.crease * degree, width.band);
       if (!o.fluid_at.empty() && !surface.may_end) {
         const Point x{o.fluid_at[0], o.fluid_at[1],
@@ -75,11 +78,28 @@ namespace {
       wall->add(facet_wall(o, grid, std::move(surface), names));
     }
     if (!o.shapes.empty()) {
+      const Periods periods(o.periodic, grid);
       ShapeTree solids;
-      for (const auto &text : o.shapes) parse_shape(text, solids);
-      wall->add(std::make_unique<ShapeWall>(std::move(solids), grid, o.crease * degree));
+      for (const auto &text : o.shapes) parse_shape(text, periods, solids);
+      wall->add(std::make_unique<ShapeWall>(std::move(solids),
+                                            periods.widened(grid, Widths(o, grid).exact), periods,
+                                            o.crease * degree));
     }
     return wall;
+  }
+
+  // where a piece is, so that one can tell which is which
+  void tell_place(const std::string &array, const Wall::Piece &piece, const Grid &grid)
+  {
+    printf("%s: %s at", array.c_str(), piece.zone.c_str());
+    for (int c = 0; c < Widths::dims_of(grid); c++) {
+      const double first = grid.origin[c], last = first + (grid.n[c] - 1) * grid.spacing[c];
+      const double low = std::max(piece.bounds.low[c], first);
+      const double high = std::min(piece.bounds.high[c], last);
+      printf(" %c = %.6g", "xyz"[c], low);
+      if (high - low > 1e-6 * grid.spacing[c]) printf(" to %.6g", high);
+    }
+    printf("\n");
   }
 
   void report(const Options &o, const Grid &grid, const Wall &wall, const LevelSet &levels,
@@ -88,6 +108,7 @@ namespace {
     const double contact = o.particle > 0.0 ? 0.5 * o.particle : std::min(exact, 2.0 * widest);
     const double high = std::min(contact + 0.5 * widest, exact);
     for (const auto &array : levels.arrays()) {
+      for (const int piece : array.pieces) tell_place(array.name, wall.pieces()[piece], grid);
       const auto q = wall_quality(wall, grid, levels, array, std::max(contact - 0.5 * widest, 0.0),
                                   high, band);
       printf("%s: size of slope less 1: max %.2e, rms %.2e; largest error %.2e of distances near "
@@ -122,7 +143,7 @@ void write_walls(const Options &o, const Grid &grid, const Surface *mesh, Vtkhdf
   };
   const auto [widest, exact, band] = Widths(o, grid);
   const auto wall = make_wall(o, grid, mesh);
-  const LevelSet levels(*wall, grid, exact, band);
+  const LevelSet levels(*wall, grid, Periods(o.periodic, grid), exact, band);
   printf("wall     %zu piece(s) in %zu array(s); %zu nodes of exact distance, up to %.6g; band "
          "%.6g; in %.2f s\n",
          wall->pieces().size(), levels.arrays().size(), levels.exact_nodes(), exact, band,

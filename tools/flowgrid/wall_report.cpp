@@ -12,8 +12,9 @@ WallQuality wall_quality(const Wall &wall, const Grid &grid, const LevelSet &lev
   constexpr size_t most = 100000;    // points looked at
   const auto lattice = lattice_of(grid);
   std::vector<double> coefficients(apf::GridDistance::size(lattice));
-  apf::GridDistance::write_coefficients(lattice, array.values, coefficients.data());
-  const apf::GridDistance field(lattice, coefficients.data());
+  const auto jumps =
+      apf::GridDistance::write_coefficients(lattice, array.values, coefficients.data());
+  const apf::GridDistance field(lattice, coefficients.data(), jumps);
 
   // nodes with three cells of the band around them
   std::vector<size_t> nodes;

@@ -60,28 +60,49 @@ namespace {
     return {u[0], u[1], u[2]};
   }
 
+  template <class Frame>
+  ContactInput<Frame> gather(const Bodies &bodies, int i, int j, double mass, double roll)
+  {
+    using Vector = typename Frame::Vector;
+    using Spin = typename Frame::Spin;
+    double xi[3], xj[3], vi[3], vj[3], wi[3], wj[3], d[3], v[3];
+    bodies.position(i, xi);
+    bodies.position(j, xj);
+    bodies.motion(i, vi, wi);
+    bodies.motion(j, vj, wj);
+    for (int c = 0; c < 3; c++) {
+      d[c] = xj[c] - xi[c];
+      v[c] = vi[c] - vj[c];
+    }
+    return {in_frame(d, Vector()),
+            in_frame(v, Vector()),
+            spin_in_frame(wi, Spin()),
+            spin_in_frame(wj, Spin()),
+            mass,
+            roll};
+  }
+
+  template <class Output> void scatter(Bodies &bodies, int i, int j, const Output &out)
+  {
+    double f[3]{}, torque_i[3]{}, torque_j[3]{};
+    copy(out.force, f);
+    copy_spin(out.torque_i, torque_i);
+    copy_spin(out.torque_j, torque_j);
+    bodies.add_load(i, f, torque_i);
+    for (double &component : f) component = -component;
+    bodies.add_load(j, f, torque_j);
+  }
+
   template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
   int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactParts *)
   {
     using Vector = typename Frame::Vector;
-    using Spin = typename Frame::Spin;
     using Tangent = typename Frame::Tangent;
     int ended = 0;
     for (int k = 0; k < list.size(); k++) {
       const int i = list.i[k], j = list.j[k];
-      double xi[3], xj[3], vi[3], vj[3], wi[3], wj[3], d[3], v[3];
-      bodies.position(i, xi);
-      bodies.position(j, xj);
-      bodies.motion(i, vi, wi);
-      bodies.motion(j, vj, wj);
-      for (int c = 0; c < 3; c++) {
-        d[c] = xj[c] - xi[c];
-        v[c] = vi[c] - vj[c];
-      }
       const ContactConstants constants = list.constants_of(k);
-      const ContactInput<Frame> in{in_frame(d, Vector()),     in_frame(v, Vector()),
-                                   spin_in_frame(wi, Spin()), spin_in_frame(wj, Spin()),
-                                   constants.crowd_mass,      constants.crowd_roll};
+      const auto in = gather<Frame>(bodies, i, j, constants.crowd_mass, constants.crowd_roll);
       ContactHistory h = list.history_of(k);
       ContactMemory<Frame> memory{tangent_in_frame(h.sliding, Tangent()),
                                   tangent_in_frame(h.rolling, Tangent()), h.twisting,
@@ -89,14 +110,7 @@ namespace {
       const auto out =
           contact_law<Frame, adhesion, sliding, twisting, rolling>(constants, in, times, memory);
 
-      double f[3]{}, torque_i[3]{}, torque_j[3]{};
-      copy(out.force, f);
-      copy_spin(out.torque_i, torque_i);
-      copy_spin(out.torque_j, torque_j);
-      bodies.add_load(i, f, torque_i);
-      for (double &component : f) component = -component;
-      bodies.add_load(j, f, torque_j);
-
+      scatter(bodies, i, j, out);
       if (sliding) copy_tangent(memory.sliding, h.sliding);
       if (rolling) copy_tangent(memory.rolling, h.rolling);
       if (twisting && !Frame::planar) h.twisting = memory.twisting;
@@ -119,7 +133,43 @@ namespace {
     }
   }
 
+  template <class Frame, bool viscous, bool fitted, bool tangential>
+  int bridges(BridgeList &list, Bodies &bodies, ContactTimes times, BridgeParts *)
+  {
+    int ended = 0;
+    for (int k = 0; k < list.size(); k++) {
+      auto &block = list.blocks[k / BridgeList::width];
+      const int l = k % BridgeList::width, i = list.i[k], j = list.j[k];
+      const BridgeConstants c = list.constants(k);
+      const auto in = gather<Frame>(bodies, i, j, block.mass[l], 0.0);
+      const BridgeState<double> state{block.formed[l], block.touching[l]};
+      const auto out = bridge_law<Frame, viscous, fitted, tangential>(c, c, in, state, times);
+      scatter(bodies, i, j, out);
+      block.ended[l] = out.ended;
+      ended += list.ended(k);
+    }
+    return ended;
+  }
+
+  template <class Frame, bool... chosen> BridgeKernel choose_bridges(const BridgeChoice &c)
+  {
+    constexpr int n = sizeof...(chosen);
+    if constexpr (n == 3) {
+      return bridges<Frame, chosen...>;
+    } else {
+      const bool wanted[3] = {c.viscous, c.fitted, c.tangential};
+      return wanted[n] ? choose_bridges<Frame, chosen..., true>(c)
+                       : choose_bridges<Frame, chosen..., false>(c);
+    }
+  }
+
 }    // namespace
+
+BridgeKernel scalar_bridges(const BridgeChoice &choice)
+{
+  return choice.planar ? choose_bridges<PlaneFrame<double>>(choice)
+                       : choose_bridges<SpaceFrame<double>>(choice);
+}
 
 ContactKernel scalar_kernel(const KernelChoice &choice)
 {

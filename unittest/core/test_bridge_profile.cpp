@@ -99,7 +99,8 @@ BridgeConstants law(Capillary capillary, double volume, double theta)
   liquid.theta = theta;
   liquid.roughness = 1e-6;
   liquid.capillary = capillary;
-  return BridgeConstants::make(liquid, ContactBodies::pair(1.0, 1.0, 1.0, 1.0), volume);
+  return BridgeConstants::make({liquid, ContactModel()}, ContactBodies::pair(1.0, 1.0, 1.0, 1.0),
+                               volume);
 }
 
 }    // namespace

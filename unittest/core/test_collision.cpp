@@ -257,6 +257,16 @@ TEST(Collision, neck_end_at_the_force_maximum_loses_half_of_the_energy)
   }
 }
 
+TEST(Collision, without_a_neck_adhesion_loses_nothing)
+{
+  auto two = sticky_pair();
+  const double V = two.sticking_speed();
+  two.model.neck_end = Break::touch;
+  two.constants = ContactConstants::make(two.model, two.bodies);
+  for (const double ratio : {0.3, 1.1, 2.0})
+    EXPECT_NEAR(head_on(two, ratio * V).restitution, 1.0, 2e-3) << ratio;
+}
+
 TEST(Collision, softer_contact_keeps_sticking_speed_and_restitution)
 {
   for (const double f : {1.0, 1e-1, 1e-2, 1e-3, 1e-4}) {

@@ -95,6 +95,8 @@ TEST(ContactModel, neck_end_is_where_it_was_asked_for)
   EXPECT_NEAR(ContactConstants::make(model, bodies).break_overlap, -0.226148e-9, 1e-15);
   model.neck_end = Break::force;
   EXPECT_NEAR(ContactConstants::make(model, bodies).break_overlap, -0.480750 * 0.226148e-9, 1e-15);
+  model.neck_end = Break::touch;
+  EXPECT_EQ(ContactConstants::make(model, bodies).break_overlap, 0.0);
   model.surface.gamma = 0.0;
   EXPECT_EQ(ContactConstants::make(model, bodies).break_overlap, 0.0);
 }

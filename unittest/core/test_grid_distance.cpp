@@ -27,14 +27,13 @@ struct Field {
     }
     std::vector<double> values;
     apf::for_each_node(lattice, [&](int i, int j, int k, std::size_t) {
-      const int index[3] = {i, j, k};
-      double x[3] = {};
-      for (int c = 0; c < dims; c++) x[c] = lattice.origin[c] + index[c] * lattice.spacing[c];
+      double x[3];
+      lattice.position(i, j, k, x);
       values.push_back(shape(x));
     });
     coefficients.resize(apf::GridDistance::size(lattice));
-    apf::GridDistance::write_coefficients(lattice, values, coefficients.data());
-    grid = apf::GridDistance(lattice, coefficients.data());
+    const auto jumps = apf::GridDistance::write_coefficients(lattice, values, coefficients.data());
+    grid = apf::GridDistance(lattice, coefficients.data(), jumps);
   }
 };
 
@@ -87,7 +86,7 @@ TEST(GridDistance, planes_at_any_angle_are_exact)
         EXPECT_NEAR(field.grid.distance(x), plane(x), 2e-15);
         EXPECT_NEAR(field.grid.distance(x, slope), plane(x), 2e-15);
         for (int c = 0; c < 3; c++) EXPECT_NEAR(slope[c], normal[c], 4e-14);
-        field.grid.curvatures(x, kappa);
+        field.grid.distance(x, slope, kappa);
         EXPECT_NEAR(kappa[0], 0.0, 2e-12);
         EXPECT_LT(field.grid.at_least(x), plane(x));
         EXPECT_GT(field.grid.at_least(x), plane(x) - 3.0 * field.lattice.spacing[0]);
@@ -131,23 +130,23 @@ TEST(GridDistance, slope_is_the_derivative_and_has_size_one)
 TEST(GridDistance, curvatures_of_sphere_cylinder_and_circle)
 {
   const double x[3] = {0.9, -0.7, 0.83};
-  double kappa[2];
+  double slope[3], kappa[2];
   const Field sphere(3, 81, 4.0, [](const double *x) {
     return 1.9 - size(x, 3);
   });
-  sphere.grid.curvatures(x, kappa);
+  sphere.grid.distance(x, slope, kappa);
   EXPECT_NEAR(kappa[0], -1.0 / size(x, 3), 2e-3);
   EXPECT_NEAR(kappa[1], -1.0 / size(x, 3), 2e-3);
   const Field cylinder(3, 81, 4.0, [](const double *x) {
     return size(x, 2) - 0.5;
   });
-  cylinder.grid.curvatures(x, kappa);
+  cylinder.grid.distance(x, slope, kappa);
   EXPECT_NEAR(kappa[0], 1.0 / size(x, 2), 2e-3);
   EXPECT_NEAR(kappa[1], 0.0, 1e-3);
   const Field circle(2, 81, 4.0, [](const double *x) {
     return size(x, 2) - 0.5;
   });
-  circle.grid.curvatures(x, kappa);
+  circle.grid.distance(x, slope, kappa);
   EXPECT_NEAR(kappa[0], 1.0 / size(x, 2), 2e-3);
   EXPECT_EQ(kappa[1], 0.0);
 }
@@ -161,9 +160,9 @@ TEST(GridDistance, curvature_is_continuous_across_cells)
   const double h = field.lattice.spacing[0], face = field.lattice.origin[0] + 15.0 * h;
   for (double y : {0.31, 0.77, 1.2}) {
     const double left[3] = {face - 1e-9, y, 0.0}, right[3] = {face + 1e-9, y, 0.0};
-    double a[2], b[2];
-    field.grid.curvatures(left, a);
-    field.grid.curvatures(right, b);
+    double slope[3], a[2], b[2];
+    field.grid.distance(left, slope, a);
+    field.grid.distance(right, slope, b);
     EXPECT_NEAR(a[0], b[0], 1e-7);
     EXPECT_GT(a[0], 0.1);
   }

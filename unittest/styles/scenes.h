@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -205,6 +207,17 @@ inline std::string scratch_file(const std::string &name)
   return (std::filesystem::temp_directory_path() /
           ("apf-" + std::string(test->name()) + "-" + std::to_string(ranks) + "-" + name))
       .string();
+}
+
+// what LAMMPS writes to its log in these commands; on one rank
+inline std::string log_of(Simulation &sim, const std::string &commands)
+{
+  const std::string file = scratch_file("log");
+  sim.run("log " + file + "\n" + commands + "log none\n");
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::filesystem::remove(file);
+  return text;
 }
 
 inline int number_of_ranks()

@@ -15,6 +15,7 @@
 
 #include <mpi.h>
 
+#include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -60,6 +61,13 @@ class Simulation {
       }
       try {
         lammps()->input->one(line);
+      } catch (LAMMPS_NS::LAMMPSAbortException &error) {
+        // of this rank alone: the others would wait for it forever
+        int ranks;
+        MPI_Comm_size(lammps()->world, &ranks);
+        if (ranks == 1) return error.what();
+        std::cerr << error.what() << " at " << line << std::endl;
+        MPI_Abort(MPI_COMM_WORLD, 1);
       } catch (LAMMPS_NS::LAMMPSException &error) {
         return error.what();
       }

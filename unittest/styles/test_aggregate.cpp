@@ -8,6 +8,7 @@
 #include "gtest/gtest.h"
 
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 namespace {
@@ -534,4 +535,43 @@ TEST(Aggregate, errors_name_the_cause)
   EXPECT_NE(error("atom_modify id no\n" + box + "compute agg all aggregate/contact\n")
                 .find("Compute aggregate/contact needs atom IDs: atom_modify id yes"),
             std::string::npos);
+}
+
+// fix balance evaluates its variables before ghosts and contacts of the run are there
+// write_restart brings atoms back into the box, and gives ghosts new numbers
+TEST(Aggregate, after_write_restart_contacts_have_to_be_found_again)
+{
+  Simulation sim;
+  sim.run("atom_style sphere\nregion box block 0 9 0 9 0 9\ncreate_box 1 box\n"
+          "comm_modify vel yes\ncreate_atoms 1 single 7.905 5 5\ncreate_atoms 1 single 8.9 5 5\n"
+          "create_atoms 1 single 2 2 2\nset group all diameter 1 density 1\n"
+          "velocity all set 1 0 0\npair_style granular/adhesive\n"
+          "pair_coeff * * jkr 1e3 0.25 0.01\nneighbor 1 bin\n"
+          "fix move all nve/sphere\ntimestep 1e-3\n"
+          "compute agg all aggregate/contact\nthermo_style custom step\nrun 150\n");
+  const auto file = (std::filesystem::temp_directory_path() / "apf-aggregate-restart").string();
+  sim.run("write_restart " + file);
+  std::filesystem::remove(file);
+  const std::string said = sim.error_of("print $(c_agg[1])");
+  EXPECT_NE(said.find("use run 0 first"), said.npos) << said;
+  sim.run("run 0");
+  EXPECT_EQ(sim.value("c_agg[1]"), 2.0);
+}
+
+TEST(Aggregate, weights_of_balance_are_taken_from_fix_ave_atom)
+{
+  const std::string balance = "fix share all balance 10 1.0 shift x 5 1.0 weight var cost\nrun 0";
+  Simulation sim;
+  build(sim, Scene(), {{5.0, 5.0, 5.0, 1}, {5.95, 5.0, 5.0, 1}});
+  sim.run(measure + std::string("\nvariable cost atom 1+c_agg[4]\n"));
+  const std::string said = sim.error_of(balance);
+  EXPECT_NE(said.find("aggregate/contact agg is asked for before the first forces"), said.npos)
+      << said;
+
+  Simulation kept;
+  build(kept, Scene(), {{5.0, 5.0, 5.0, 1}, {5.95, 5.0, 5.0, 1}});
+  kept.run(measure +
+           std::string("\nfix touch all ave/atom 1 1 10 c_agg[4]\n"
+                       "variable cost atom 1+f_touch\n"));
+  EXPECT_EQ(kept.error_of(balance), "");
 }

@@ -125,7 +125,7 @@ std::vector<Row> law_errors(const std::string &line, const std::string &command)
       {"rolling 0.01 much", {command, "keyword much is unknown"}},
       {"rolling no", {"must be a number", "got no"}},
       {"break", {command + " break" + missing}},
-      {"break energy", {command, "break must be displacement or force"}},
+      {"break energy", {command, "break must be displacement, force or touch"}},
       {"scale_stiffness", {command, "scale_stiffness is missing; it must be in (0, 1]"}},
       {"scale_stiffness 0", {command, "scale_stiffness must be in (0, 1], got 0"}},
       {"scale_stiffness -1", {command, "scale_stiffness must be in (0, 1], got -1"}},
@@ -362,4 +362,29 @@ TEST(WallWarnings, overlap_and_timestep)
   const std::string quiet = log_of(start + "fix w all wall/levelset plane y 0 10 jkr 200 0 0.1\n" +
                                    "timestep " + std::to_string(0.7 * good) + "\nrun 0");
   EXPECT_EQ(quiet.find("WARNING"), std::string::npos) << quiet;
+}
+
+// What a user of granular particles forgets, told when the pair style looks at the scene.
+TEST(SceneChecks, discs_empty_groups_and_particles_wider_than_the_box)
+{
+  const std::string pair = style + hertz;
+  expect_errors("units lj\ndimension 2\natom_style sphere\ncomm_modify vel yes\n"
+                "region box block 0 10 0 10 -0.5 0.5\ncreate_box 2 box\n"
+                "create_atoms 1 single 5 5 0\nset group all diameter 1.0 density 1.0\n" +
+                    pair,
+                {{"fix flat all nve/sphere disc\nrun 0", {"fix flat nve/sphere", "keyword disc"}}});
+
+  const std::string empty = particles + pair + "unfix move\ngroup none empty\n";
+  for (const std::string integrator : {"nve/sphere", "nve/sphere/mts collision 2"})
+    expect_words(
+        log_of(empty + "fix idle none " + integrator + "\nrun 0"),
+        {integrator, {"WARNING: Pair granular/adhesive: fix idle", "its group none is empty"}});
+  const std::string filled = empty +
+      "fix air all flow/field uniform 0 1 0 density 1 viscosity 1\n"
+      "fix in none inlet/flow y 1 air number 1 diameter 1 density 1 type 1 seed 1\n";
+  EXPECT_EQ(log_of(filled + "fix idle none nve/sphere\nrun 0").find("is empty"), std::string::npos);
+  EXPECT_EQ(log_of(particles + pair + "run 0").find("WARNING: Pair"), std::string::npos);
+
+  expect_words(log_of(particles + pair + "set atom 1 diameter 12\nrun 0"),
+               {"diameter 12", {"the largest particle has a diameter of 12, the box is 10 wide"}});
 }

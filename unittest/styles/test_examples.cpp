@@ -6,8 +6,28 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 namespace {
+
+// last line of what the channel wrote after these runs, one after another
+std::string channel(const std::string &name, const std::vector<std::vector<const char *>> &runs)
+{
+  const auto out = scratch_file(name);
+  std::filesystem::create_directory(out);
+  for (const auto &run : runs) {
+    std::vector<std::string> words = {"-var", "dir", out, "-var", "picture", "100"};
+    words.insert(words.end(), run.begin(), run.end());
+    Simulation sim(words);
+    sim.run("include " APF_EXAMPLES "/channel/in.channel\nlog none\n");
+  }
+  std::ifstream file(out + "/channel-phi50.aggregates");
+  std::string line, last;
+  while (std::getline(file, line)) last = line;
+  std::filesystem::remove_all(out);
+  return last;
+}
 
 std::string verdict(const std::string &name, const std::string &script,
                     std::vector<std::string> words)
@@ -54,6 +74,38 @@ TEST(Examples, radiator)
 TEST(Examples, duct)
 {
   EXPECT_EQ(verdict("duct", "duct", {}), "pass");
+}
+
+TEST(Examples, channel_goes_on_from_its_restart_file)
+{
+  const auto whole = channel("channel_whole", {{"-var", "t", "0.4"}});
+  const auto parts = channel("channel_parts",
+                             {{"-var", "t", "0.3"}, {"-var", "t", "0.4", "-var", "resume", "end"}});
+  // time, particles in aggregates, aggregates, size; at walls: rounding has not grown yet
+  const auto counts = [](std::istringstream line) {
+    std::string text, word;
+    for (int k = 0; k < 8 && line >> word; k++) text += word + " ";
+    return text;
+  };
+  EXPECT_EQ(counts(std::istringstream(whole)), counts(std::istringstream(parts)));
+  EXPECT_EQ(whole.substr(0, 8), "400 0.4 ");
+}
+
+TEST(Examples, study_of_the_nozzle_walks_through_its_parameters)
+{
+  const auto here = std::filesystem::current_path();
+  const auto out = scratch_file("nozzle_study");
+  std::filesystem::create_directory(out);
+  std::filesystem::current_path(APF_EXAMPLES "/nozzle");
+  {
+    Simulation sim({"-var", "dir", out, "-var", "t", "1", "-var", "phis", "25", "50"});
+    sim.run("include in.study\nlog none\n");
+  }
+  std::filesystem::current_path(here);
+  for (const char *phi : {"25", "50"})
+    EXPECT_TRUE(std::filesystem::exists(out + "/nozzle-0.5-phi" + phi + "-wall-yes.restart.end"))
+        << phi;
+  std::filesystem::remove_all(out);
 }
 
 TEST(Examples, humid_channel)

@@ -2,6 +2,7 @@
 // whatever the number of ranks; what is wrong with a file or a box is said.
 
 #include "fix.h"
+#include "nodes.h"
 #include "simulation.h"
 #include "temporary_file.h"
 
@@ -551,9 +552,7 @@ std::string many()
       "neigh_modify delay 0 every 1\n";
 }
 
-}    // namespace
-
-TEST(RanksFlowFile, forces_do_not_depend_on_ranks)
+void expect_forces_of_one_rank()
 {
   const TemporaryFile file("apf_ranks");
   const std::vector<double> times = {0.0, 0.1, 0.2, 0.3};
@@ -600,7 +599,8 @@ TEST(RanksFlowFile, forces_do_not_depend_on_ranks)
   EXPECT_EQ(compared, 3 * n_spheres);
 }
 
-TEST(RanksFlowFile, a_node_has_one_copy)
+// bytes that all ranks hold of a grid of 20^3 nodes
+double bytes_of_a_grid()
 {
   const TemporaryFile file("apf_memory");
   file.write({20, 20, 20}, {0, 0, 0}, {1, 1, 1}, [](VtkhdfWriter &w) {
@@ -611,7 +611,38 @@ TEST(RanksFlowFile, a_node_has_one_copy)
           "fix drag all flow/force flow drag stokes\nrun 0\n");
   double bytes = sim.lammps()->modify->get_fix_by_id("flow")->memory_usage();
   MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-  EXPECT_NEAR(bytes, 20 * 20 * 20 * 32, 64) << "four doubles a node";
+  return bytes;
+}
+
+}    // namespace
+
+TEST(RanksFlowFile, forces_do_not_depend_on_ranks)
+{
+  expect_forces_of_one_rank();
+}
+
+TEST(RanksFlowFile, forces_do_not_depend_on_nodes)
+{
+  for (const int ranks : {1, 2, 3}) {
+    const SmallNodes nodes(ranks);
+    expect_forces_of_one_rank();
+  }
+}
+
+TEST(RanksFlowFile, a_node_has_one_copy)
+{
+  EXPECT_NEAR(bytes_of_a_grid(), 20 * 20 * 20 * 32, 64) << "four doubles a node";
+}
+
+TEST(RanksFlowFile, every_node_has_a_copy)
+{
+  int ranks;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  for (const int of_a_node : {1, 2, 3}) {
+    const SmallNodes nodes(of_a_node);
+    const int copies = (ranks + of_a_node - 1) / of_a_node;
+    EXPECT_NEAR(bytes_of_a_grid(), copies * 20 * 20 * 20 * 32, 64 * copies) << of_a_node;
+  }
 }
 
 TEST(RanksFlowFile, errors_of_files_are_those_of_all_ranks)

@@ -173,6 +173,24 @@ TEST(FlowForces, columns_are_the_forces_that_the_script_names)
   EXPECT_NE(sim.value("f_drag[19]"), 0.0);
 }
 
+TEST(FlowForces, without_a_per_atom_array_the_motion_is_the_same)
+{
+  double v[2], total[2];
+  for (const bool with : {false, true}) {
+    Simulation sim;
+    sim.run(sphere() + "velocity all set 1 0 0\nfix air all flow/field uniform 0 0.5 0" +
+            properties(0.385, 1.0 / 18.0) +
+            "fix drag all flow/force air drag stokes torque yes peratom " +
+            (with ? "yes\n" : "no\n") + timestep(0.01) + "run 50\n");
+    v[with] = sim.value("vx[1]");
+    total[with] = sim.value("f_drag[22]");
+    const auto error = sim.error_of("compute sum all reduce sum f_drag[1]");
+    EXPECT_EQ(error.empty(), with) << error;
+  }
+  EXPECT_EQ(v[0], v[1]);
+  EXPECT_EQ(total[0], total[1]);
+}
+
 TEST(FlowForces, groups_of_scattered_atoms_get_what_all_together_get)
 {
   // every second atom, so that a block is no rows one after another
@@ -402,21 +420,17 @@ TEST(FlowForces, one_warning_counts_the_particles_beyond_a_law)
 {
   // Re = |v - u| d/nu: 2 and 0.5 under stokes, 900 and 2 under schiller; lift: Re <= sqrt(Re_G)
   auto warnings = [](const std::string &forces, double fast, double slow) {
-    const std::string file = scratch_file("log");
     Simulation sim;
     sim.run(sphere() +
             "create_atoms 1 single 2 2 2\nset atom 2 diameter 1.0 density 1.0\n"
             "fix air all flow/field shear x y 0.01 0 density 1 viscosity 1\n"
             "set atom 1 vx " +
-            digits(fast + 0.05) + "\nset atom 2 vx " + digits(slow + 0.02) + "\nlog " + file +
-            "\nfix drag all flow/force air " + forces + "\ntimestep 1e-9\nrun 3\nlog none\n");
+            digits(fast + 0.05) + "\nset atom 2 vx " + digits(slow + 0.02) + "\n");
+    std::istringstream log(
+        log_of(sim, "fix drag all flow/force air " + forces + "\ntimestep 1e-9\nrun 3\n"));
     std::string text;
-    FILE *in = fopen(file.c_str(), "r");
-    char line[512];
-    while (in && fgets(line, sizeof(line), in))
-      if (std::string(line).find("WARNING: Fix flow/force") == 0) text += line;
-    if (in) fclose(in);
-    std::filesystem::remove(file);
+    for (std::string line; std::getline(log, line);)
+      if (line.find("WARNING: Fix flow/force") == 0) text += line;
     return text;
   };
   const auto stokes = warnings("drag stokes", 2.0, 0.5);

@@ -94,6 +94,39 @@ TEST(MtsErrors, what_it_cannot_work_with)
                {name, "atom style sphere", "atomic"});
 }
 
+TEST(MtsErrors, forces_that_are_set_give_a_warning)
+{
+  for (const std::string style : {"setforce", "aveforce", "addforce"}) {
+    Simulation sim;
+    build(sim, {{3.0, 4.0, 4.0}, {5.0, 4.0, 4.0}});
+    const auto text = log_of(sim, start + "fix hold all " + style + " 0 0 0\nrun 0\n");
+    EXPECT_EQ(text.find("fix hold " + style + " does not hold particles") != std::string::npos,
+              style != "addforce")
+        << text;
+  }
+}
+
+// Of a pair that stays together, 5 particle steps of 8 collision steps; of a bridge alone, which
+// asks for 14; without contacts no mode sets the step.
+TEST(MtsErrors, summary_at_the_end_of_a_run)
+{
+  Simulation pair;
+  build(pair, {{3.0, 4.0, 4.0}, {3.99, 4.0, 4.0}, {6.0, 6.0, 6.0}});
+  expect_words(log_of(pair, start + "run 5\n"),
+               {"nve: 5 particle steps", "40 collision steps, 8 to 8 in a particle step",
+                "sub-stepped 66.7 %", "mode of contacts; contacts found late 0"});
+  Simulation wet;
+  build(wet, {{3.0, 4.0, 4.0}, {3.995, 4.0, 4.0}});
+  expect_words(log_of(wet,
+                      "pair_coeff * * jkr 1e3 0.25 0.01 bridge 0.0002 20000 20 1 0.01\n"
+                      "fix nve all nve/sphere/mts collision auto\nrun 1\n"),
+               {"finest step set by bridge mode"});
+  Simulation none;
+  build(none, {{2.0, 4.0, 4.0}, {6.0, 4.0, 4.0}});
+  expect_words(log_of(none, "fix nve all nve/sphere/mts collision auto\nrun 1\n"),
+               {"sub-stepped 0.0 %", "finest step set by no mode"});
+}
+
 TEST(MtsErrors, skin_that_is_too_thin_for_what_it_must_see)
 {
   Simulation sim;

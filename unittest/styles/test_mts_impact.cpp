@@ -197,8 +197,9 @@ TEST(MtsImpact, stiff_spheres_rebound_as_soft_ones)
       const double V = impacts[n].speed / V_s;
       expect_criterion("C6 mts: e of softened less e of stiff spheres", e[n] - hard[n], -0.01,
                        0.01);
-      if (damping.empty())
+      if (damping.empty()) {
         EXPECT_NEAR(hard[n], V > 1.0 ? std::sqrt(1.0 - 1.0 / (V * V)) : 0.0, 0.01) << V;
+      }
     }
   }
 }

@@ -272,6 +272,45 @@ TEST(Ledger, areas_are_those_of_geometry)
   }
 }
 
+// Regions stay where they are while the wall moves; the box cuts a plane that has turned.
+TEST(Ledger, areas_of_moving_walls_are_those_of_where_they_are)
+{
+  const double arc = 2.0 * std::acos(0.25) * 2.0;    // of a circle of radius 2 beyond 0.5
+  const std::string part = "region a block 6 9 -1 9 -1 9\n";
+  const std::vector<Area> table = {
+      // after the time 1
+      {"f f p",
+       part,
+       "cylinder z 4 4 2 outside" + jkr + "zone a a move linear 1.5 0 0",
+       {8.0 * arc, 32.0 * pi - 8.0 * arc, 32.0 * pi}},
+      {"f f p",
+       part,
+       "cylinder z 5.5 4 2 outside" + jkr + "zone a a move rotate 5.5 4 0 0 0 3",
+       {8.0 * arc, 32.0 * pi - 8.0 * arc, 32.0 * pi}},
+      {"p p f",
+       "region a block 6 9 -1 9 -1 3\n",
+       "plane z 0 NULL" + jkr + "zone a a move linear 0.3 0.2 4",
+       {0.0, 64.0, 64.0}},
+      {"f f f",
+       part,    // by 45 degrees about an axis through the middle of the box
+       "plane z 3 NULL" + jkr + "zone a a move rotate 4 4 4 0 " + digits(0.25 * pi) + " 0",
+       {8.0 * std::sqrt(2.0) * (2.0 - std::sqrt(2.0)),
+        8.0 * (8.0 * std::sqrt(2.0) - 2.0 - std::sqrt(2.0) * (2.0 - std::sqrt(2.0))),
+        8.0 * (8.0 * std::sqrt(2.0) - 2.0)}},
+  };
+  for (const auto &row : table) {
+    SCOPED_TRACE(row.wall);
+    Simulation sim;
+    build(sim, {{1.0, 5.0, 7.0}},
+          at_wall(row.regions + "fix wall all wall/levelset " + row.wall, row.boundary));
+    sim.run("timestep 0.01\nrun 100");
+    for (size_t n = 0; n < row.areas.size(); n++)
+      EXPECT_NEAR(entry(sim, static_cast<int>(n) + 1, AREA), row.areas[n],
+                  2e-5 * (1.0 + row.areas[n]))
+          << n;
+  }
+}
+
 // In the plane areas are lengths, and a sphere counts in a slab as thick as itself: pi d^2 / 6.
 TEST(RanksLedger, deposit_in_the_plane)
 {

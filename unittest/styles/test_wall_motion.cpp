@@ -93,7 +93,8 @@ TEST(WallMotion, drum_takes_along_what_sticks)
   }
 }
 
-// a turned wall from a file stands where its shape says
+// A turned wall from a file, the plane y = 4 of the box, stands where its shape says; so do its
+// zones, in which a deposit per area is that of what lies there.
 TEST(WallMotion, wall_from_a_file_turns)
 {
   TemporaryFile file("apf_wall_motion");
@@ -102,20 +103,28 @@ TEST(WallMotion, wall_from_a_file_turns)
       *phi = x[1] - 4.0;
     });
   });
-  Scene scene = at_wall("file " + file.path + jkr + "move rotate 4 4 0 0 0 1", "f f p");
+  Scene scene =
+      at_wall("file " + file.path + jkr + "move rotate 4 4 0 0 0 1 zone right right", "f f p");
   scene.before = "dimension 2";
   scene.box = "0 8 0 8 -0.5 0.5";
+  scene.style = "region right block 6 9 -1 9 -1 1\n" + scene.style;
   Simulation sim;
-  build(sim, {{2.0, 7.0, 0.0}}, scene);
-  // the plane y = 4 turned by 30 degrees about the middle; 0.49 above it
-  const double angle = pi / 6.0;
+  build(sim, {{6.5, 7.0, 0.0}}, scene);
+  // by 30 degrees about the middle; 0.49 above it
+  const double angle = pi / 6.0, along = 3.0;
   sim.run("fix stay all nve/noforce\nfix flat all enforce2d\ntimestep " + digits(angle / 512.0) +
-          "\nrun 512\nset atom 1 x " + digits(4.0 - 0.49 * std::sin(angle)) + " y " +
-          digits(4.0 + 0.49 * std::cos(angle)) + "\nrun 0");
+          "\nrun 512\nset atom 1 x " +
+          digits(4.0 - 0.49 * std::sin(angle) + along * std::cos(angle)) + " y " +
+          digits(4.0 + 0.49 * std::cos(angle) + along * std::sin(angle)) + "\nrun 0");
   const auto f = gather(sim, "f");
   const double expected = material.wall().force(0.01);
   EXPECT_NEAR(f[0], -expected * std::sin(angle), 1e-9 * std::fabs(expected));
   EXPECT_NEAR(f[1], expected * std::cos(angle), 1e-9 * std::fabs(expected));
+  const double right = 4.0 - 2.0 / std::cos(angle);
+  EXPECT_NEAR(sim.value("f_wall[1][13]"), right, 1e-6);
+  EXPECT_NEAR(sim.value("f_wall[2][13]"), 8.0 - right, 1e-6);
+  EXPECT_NEAR(sim.value("f_wall[1][15]"), pi / 6.0 / right, 1e-6);
+  EXPECT_EQ(sim.value("f_wall[2][15]"), 0.0);
 }
 
 // a wall shaken by a variable, restarted in the middle

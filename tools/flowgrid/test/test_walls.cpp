@@ -3,6 +3,7 @@
 #include "flow/vtkhdf_file.h"
 #include "meshes.h"
 #include "program.h"
+#include "vector.h"
 
 #include "gtest/gtest.h"
 
@@ -422,6 +423,124 @@ TEST(Walls, isosurface_has_walls_along_the_border)
   mass->SetInputConnection(reader->GetOutputPort());
   const double chamfers = 12 * 0.3 * 0.02 * (2.0 - std::sqrt(2.0));    // a cell wide
   EXPECT_NEAR(mass->GetSurfaceArea(), 6 * 0.3 * 0.3 - chamfers, 0.005);
+}
+
+// A bar with round ends, whose discs touch its faces: one piece wherever the nodes are.
+TEST(Walls, faces_that_touch_smoothly_are_one_piece)
+{
+  const Folder folder;
+  const std::string path = folder / "bar.vtkhdf";
+  for (const std::string spacing : {"0.3", "0.2", "0.15", "0.07", "0.031"}) {
+    const auto run =
+        flowgrid_with(path +
+                      " --bounds 0 3 0 2.4 0 0 --planar 0 --exact 0.3 --shape \"bar: union("
+                      "rectangle(1,1, 2,1.4), disc(1,1.2, 0.2), disc(2,1.2, 0.2))\" --spacing " +
+                      spacing);
+    ASSERT_EQ(run.status, 0) << run.text;
+    EXPECT_NE(run.text.find("1 piece(s) in 1 array(s)"), std::string::npos) << run.text;
+    const Distances file(path);
+    const int count = file.expect("distance_bar", 0.29, 1e-14, [](const Point &x) {
+      const double along = std::max({1.0 - x[0], x[0] - 2.0, 0.0});
+      return std::hypot(along, x[1] - 1.2) - 0.2;
+    });
+    EXPECT_GT(count, 10);
+  }
+}
+
+// The triangles of a wall are a wall themselves, without being told where the fluid is.
+TEST(Walls, isosurface_is_a_surface_with_normals_into_the_fluid)
+{
+  const Folder folder;
+  const std::string bounds = " --spacing 0.1 --bounds 0 2 0 2 0 2 ";
+  const std::string shape = "--shape \"s: sphere(1,1,1, 0.6)\" --isosurface ";
+  for (const std::string name : {"s.stl", "s.vtp"}) {
+    const std::string surface = folder / name, path = folder / "of_triangles.vtkhdf";
+    ASSERT_EQ(flowgrid_with(folder / "of_shape.vtkhdf" + bounds + shape + surface).status, 0);
+    const auto run = flowgrid_with(path + bounds + "--wall-surface " + surface);
+    ASSERT_EQ(run.status, 0) << run.text;
+    const Distances file(path);
+    EXPECT_GT(file.expect("distance", 0.3, 5e-3,
+                          [](const Point &x) {
+                            return std::hypot(x[0] - 1.0, x[1] - 1.0, x[2] - 1.0) - 0.6;
+                          }),
+              1000);
+  }
+}
+
+// A disc across a periodic border, given once: distances to the nearest copy, and the same at both
+// ends. A bar that ends at the border has no end there.
+TEST(Walls, periodic_walls_go_on_at_the_other_end)
+{
+  const Folder folder;
+  const std::string path = folder / "periodic.vtkhdf";
+  const std::string words = path +
+      " --spacing 0.1 --bounds 0 4 0 3 0 0 --planar 0 --band 12 "
+      "--shape \"post: disc(0.3,1.5, 0.5)\" "
+      "--shape \"bar: rectangle(0,-1, 4,0.2)\" --periodic x";
+  const auto run = flowgrid_with(words);
+  ASSERT_EQ(run.status, 0) << run.text;
+  const Distances file(path);
+  const auto post = [](const Point &x) {
+    double least = 1e300;
+    for (const double at : {-3.7, 0.3, 4.3})
+      least = std::min(least, std::hypot(x[0] - at, x[1] - 1.5) - 0.5);
+    return least;
+  };
+  EXPECT_GT(file.expect("distance_post", 0.39, 1e-14, post), 100);
+  EXPECT_GT(file.expect("distance_post", 1.0, 0.03, post), 400);    // by fast marching
+  EXPECT_GT(file.expect("distance_bar", 0.39, 1e-14,
+                        [](const Point &x) {
+                          return x[1] - 0.2;
+                        }),
+            200);
+  for (const std::string array : {"distance", "distance_post", "distance_bar"}) {
+    const auto values = file.file.read(array, 1, 0, 1);
+    for (int j = 0; j < 31; j++) EXPECT_EQ(values[41 * j], values[41 * j + 40]) << array;
+  }
+  EXPECT_NE(run.text.find("distance_bar: bar at x = 0 to 4 y = 0.2\n"), std::string::npos)
+      << run.text;
+}
+
+// ... of triangles too
+TEST(Walls, periodic_surface_of_triangles)
+{
+  const Folder folder;
+  auto triangles = sphere(24);
+  for (auto &t : triangles)
+    for (auto &p : t) p = p + Point{0.2, 1.0, 0.1};
+  write_stl(folder / "s.stl", triangles);
+  const std::string path = folder / "periodic.vtkhdf";
+  const auto run = flowgrid_with(path +
+                                 " --spacing 0.1 --bounds 0 2.5 0 2 0 2.5 --band 6 "
+                                 "--wall-surface " +
+                                 (folder / "s.stl") + " --periodic xz");
+  ASSERT_EQ(run.status, 0) << run.text;
+  const Distances file(path);
+  const int count = file.expect("distance_s", 0.39, 2e-5, [](const Point &x) {
+    double least = 1e300;
+    for (const double a : {0.2, 2.7})
+      for (const double b : {0.1, 2.6})
+        least = std::min(least, std::hypot(x[0] - a, x[1] - 1.0, x[2] - b) - 0.5);
+    return least;
+  });
+  EXPECT_GT(count, 2000);
+}
+
+TEST(Walls, periods_that_cannot_be_are_refused)
+{
+  const Folder folder;
+  const std::string words = folder / "periodic.vtkhdf" +
+      " --bounds 0 4 0 3 0 0 --planar 0 --shape \"post: disc(0.3,1.5, 0.5)\" --spacing ";
+  const auto expect = [&](const std::string &more, const std::string &text) {
+    const auto run = flowgrid_with(words + more);
+    EXPECT_NE(run.status, 0);
+    EXPECT_NE(run.text.find(text), std::string::npos) << run.text;
+  };
+  expect("0.11 --periodic y", "--periodic y needs a --spacing that divides");
+  expect("0.1 --periodic w", "--periodic takes x, y, z, got w");
+  expect("0.1 --periodic z", "--periodic z needs a grid in space");
+  expect("0.1 --periodic x --shape \"p: plane(1,0,0, 1,1,0)\"",
+         "a plane across a --periodic direction");
 }
 
 TEST(Walls, wrong_shapes_are_pointed_at)

@@ -1,0 +1,51 @@
+// Coefficients of pair style granular/adhesive in restart and data files.
+
+#include "pair_granular_adhesive.h"
+
+#include "atom.h"
+#include "comm.h"
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::write_restart(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      fwrite(&setflag[i][j], sizeof(int), 1, fp);
+      if (setflag[i][j]) fwrite(&coefficients[i][j], sizeof(ContactCoeff), 1, fp);
+    }
+}
+
+void PairGranularAdhesive::read_restart(FILE *fp)
+{
+  if (!allocated) allocate();
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      auto &coeff = coefficients[i][j];
+      if (comm->me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
+      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      if (!setflag[i][j]) continue;
+      if (comm->me == 0) utils::sfread(FLERR, &coeff, sizeof(coeff), 1, fp, nullptr, error);
+      MPI_Bcast(&coeff, sizeof(coeff), MPI_BYTE, 0, world);
+      coefficients[j][i] = coeff;
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairGranularAdhesive::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    utils::print(fp, "{} {}\n", i, coefficients[i][i].words());
+}
+
+// A line can name one material only. Mixed pairs come back by mixing again; where the script named
+// a pair of unlike types, that line is written.
+void PairGranularAdhesive::write_data_all(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++)
+      if (setflag[i][j]) utils::print(fp, "{} {} {}\n", i, j, coefficients[i][j].words());
+}
