@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "fix_nve_sphere_mts.h"
 #include "modify.h"
 #include "respa.h"
@@ -160,6 +161,10 @@ void FixContacts::write_restart(FILE *fp)
   const int bytes = static_cast<int>(state.size() * sizeof(double));
   fwrite(&bytes, sizeof(int), 1, fp);
   fwrite(state.data(), sizeof(double), state.size(), fp);
+  // LAMMPS does not look whether its files can be written
+  if (fflush(fp) != 0)
+    error->one(FLERR, Error::NOLASTLINE, "{} {}: the restart file cannot be written: {}", style, id,
+               utils::getsyserror());
 }
 
 void FixContacts::restart(char *buf)

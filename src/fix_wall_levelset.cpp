@@ -198,7 +198,6 @@ int FixWallLevelset::level() const
 
 void FixWallLevelset::setup(int vflag)
 {
-  motion.take_speeds();
   if (auto *respa = dynamic_cast<Respa *>(update->integrate)) {
     respa->copy_flevel_f(level());
     post_force(vflag);
@@ -231,6 +230,12 @@ void FixWallLevelset::post_force(int vflag)
   ledger.move_regions();
   const auto times = lender ? lender->times() : take_velocities();
   if (lender) recall_due(times);
+  if (update->setupflag) {
+    if (times.behind > 0.0)
+      motion.pose.recall_motion();
+    else
+      motion.take_speeds();
+  }
   motion.pose.advance(times.advance);
   contacts_change();
   const int before = contacts.size();
@@ -254,5 +259,6 @@ void FixWallLevelset::post_force(int vflag)
   if (goes_on) add_due();
   if (ended) remove_ended(false);
   if (ruptured) bridges.remove_ruptured(false);
+  motion.pose.remember_motion();
   motion.take_speeds();
 }

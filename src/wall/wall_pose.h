@@ -50,10 +50,23 @@ class WallPose {
     return velocity + cross(spin, Vec3{x[0] - centre.x, x[1] - centre.y, x[2] - centre.z});
   }
 
-  static constexpr int state_size = 12;
+  // Forces are computed with the velocity and spin of the step before them. A run that goes on from
+  // the end of another computes the last forces again, as they were.
+  void remember_motion()
+  {
+    last_velocity = velocity;
+    last_spin = spin;
+  }
+  void recall_motion()
+  {
+    velocity = last_velocity;
+    spin = last_spin;
+  }
+
+  static constexpr int state_size = 18;
   void write(double *state) const
   {
-    for (const Vec3 &v : {centre, axes[0], axes[1], axes[2]}) {
+    for (const Vec3 &v : {centre, axes[0], axes[1], axes[2], last_velocity, last_spin}) {
       *state++ = v.x;
       *state++ = v.y;
       *state++ = v.z;
@@ -61,7 +74,7 @@ class WallPose {
   }
   void read(const double *state)
   {
-    for (Vec3 *v : {&centre, &axes[0], &axes[1], &axes[2]}) {
+    for (Vec3 *v : {&centre, &axes[0], &axes[1], &axes[2], &last_velocity, &last_spin}) {
       *v = {state[0], state[1], state[2]};
       state += 3;
     }
@@ -69,6 +82,7 @@ class WallPose {
 
  private:
   Vec3 start{0.0, 0.0, 0.0}, centre{0.0, 0.0, 0.0};
+  Vec3 last_velocity{0.0, 0.0, 0.0}, last_spin{0.0, 0.0, 0.0};
   Vec3 axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};    // of the frame, in space
 
   // rounding adds up over many steps
