@@ -1,0 +1,203 @@
+#!/usr/bin/python3
+"""Tests of the contact models of this folder, run by LIGGGHTS: against closed forms.
+
+    test_models.py [PROGRAM]     PROGRAM as ./build prints it; ./test does both
+
+Exit code 77: skipped, because LIGGGHTS with the models has not been built.
+"""
+import math
+import shutil
+import sys
+import unittest
+
+import numpy as np
+
+from scenes import JKR, REST, run, scene, table, thermo
+
+E, NU, GAMMA, MU, THETA = 1.0e6, 0.25, 100.0, 0.3, 0.01
+E_EFF = 0.5 * E / (1 - NU**2)
+PAIR = JKR(0.25, E_EFF, GAMMA)
+WALL = JKR(0.5, E_EFF, GAMMA)
+MASS = math.pi / 6
+PARTS = "tangential adhesive rolling_friction dominik_tielens twisting on"
+program = ""
+
+
+def models(spheres, words="", restitution=1.0, adhesion=2 * GAMMA, boundary="p p p"):
+    """Head of a script with our models."""
+    laws = [
+        f"fix m1 all property/global youngsModulus peratomtype {E}",
+        f"fix m2 all property/global poissonsRatio peratomtype {NU}",
+        f"fix m3 all property/global coefficientRestitution peratomtypepair 1 {restitution}",
+        f"fix m4 all property/global surfaceEnergy peratomtypepair 1 {adhesion}",
+        f"fix m5 all property/global coefficientFriction peratomtypepair 1 {MU}",
+        f"fix m6 all property/global criticalRollingAngle peratomtypepair 1 {THETA}",
+        f"pair_style gran model jkr {words}", "pair_coeff * *",
+    ]
+    return scene("LIGGGHTS", spheres, "\n".join(laws), boundary)
+
+
+def pair_on_x(gap, speed, **words):
+    """Two spheres along x whose second moves away from the first at a speed."""
+    half = np.array([0.5 * speed, 0.0, 0.0])
+    return models([((3, 4, 4), -half, REST), ((4 + gap, 4, 4), half, REST)], **words)
+
+
+def step_of(law, mass):
+    """A fiftieth of the period in the bottom of the normal force."""
+    return 2 * math.pi / math.sqrt(0.990578 * law.F_C / law.delta_C / mass) / 50
+
+
+class PullOff(unittest.TestCase):
+    """Bodies that are moved at a constant speed, first together, then apart."""
+
+    def curves(self, law, make):
+        """Overlap and force while the bodies come together and while they part."""
+        steps, way = 400, 4 * law.delta_C    # from a gap of 2 delta_C to an overlap of 2 delta_C
+        speed = way / steps
+        together = table(program, make(way / 2, -speed) + f"run {steps}\n")
+        both = table(program, make(way / 2, -speed) + f"run {steps}\n" + self.turned(speed) +
+                     f"run {steps}\n")
+        return together, both[steps + 1:]
+
+    def check(self, law, rows, parting):
+        overlap, force = rows[:, 1], rows[:, 2]
+        reach = law.delta_C if parting else 0.0
+        near = np.abs(overlap + reach) < 1e-9 * law.delta_C    # either is right
+        held = (overlap > -reach) & ~near
+        exact = np.array([law.force(d) for d in overlap[held]])
+        np.testing.assert_allclose(force[held] / law.F_C, exact / law.F_C, atol=1e-8)
+        np.testing.assert_array_equal(force[~held & ~near], 0.0)
+        return overlap[force != 0.0], force[force != 0.0] / law.F_C
+
+    def check_both(self, law, together, apart):
+        overlap, force = self.check(law, together, False)
+        self.assertGreater(overlap.min(), -1e-9 * law.delta_C)
+        self.assertAlmostEqual(force[np.argmin(overlap)], -8 / 9, delta=0.01)
+        overlap, force = self.check(law, apart, True)
+        self.assertAlmostEqual(force.min(), -1.0, delta=1e-4)
+        self.assertAlmostEqual(overlap[np.argmin(force)] / law.delta_C, -(9 ** (-1 / 3)), delta=0.02)
+        self.assertAlmostEqual(overlap.min() / law.delta_C, -1.0, delta=0.0101)    # one step
+        self.assertTrue(-0.66 < force[np.argmin(overlap)] < -5 / 9 + 1e-8)    # at -0.99: -0.649
+
+    def turned(self, speed):
+        return (f"velocity g1 set {-0.5 * speed:.17g} 0 0 units box\n"
+                f"velocity g2 set {0.5 * speed:.17g} 0 0 units box\n")
+
+    def test_pair(self):
+        def make(gap, speed):
+            return (pair_on_x(gap, speed) + "fix move all nve/noforce\ntimestep 1\nthermo 1\n" +
+                    thermo("1-(x[2]-x[1])", "fx[2]") + "\n")
+
+        self.check_both(PAIR, *self.curves(PAIR, make))
+
+
+class PullOffWall(PullOff):
+    """The same from a flat wall."""
+
+    def turned(self, speed):
+        return f"velocity g1 set 0 0 {speed:.17g} units box\n"
+
+    def test_pair(self):
+        pass
+
+    def test_wall(self):
+        def make(gap, speed):
+            return (models([((4, 4, 0.5 + gap), (0, 0, speed), REST)], boundary="p p f") +
+                    "fix wall all wall/gran model jkr primitive type 1 zplane 0.0\n"
+                    "fix move all nve/noforce\ntimestep 1\nthermo 1\n" +
+                    thermo("0.5-z[1]", "fz[1]") + "\n")
+
+        self.check_both(WALL, *self.curves(WALL, make))
+
+
+class Doublet(unittest.TestCase):
+    """Two spheres that hold each other."""
+
+    def test_comes_to_rest_at_equilibrium(self):
+        step = step_of(PAIR, MASS / 2)
+        rows = table(program, pair_on_x(0.1 * PAIR.delta_C, -0.05, words=PARTS, restitution=0.2) +
+                     f"fix move all nve/sphere\ntimestep {step}\nthermo 1000\n" +
+                     thermo("1-(x[2]-x[1])", "fx[2]") + "\nrun 4000\n")
+        self.assertAlmostEqual(rows[-1, 1] / PAIR.delta_C, 1.211414, delta=1e-6)
+        self.assertAlmostEqual(rows[-1, 2] / PAIR.F_C, 0.0, delta=1e-6)
+
+    def roll(self, turns, drift, ranks=1):
+        """Rolls to and fro while the doublet turns about the axis of rolling; error of the relative
+        spin after twenty periods, by its amplitude."""
+        I = 0.1 * MASS
+        # the overlap at which the neck bears what turning about the middle takes
+        overlap = PAIR.overlap_at(-MASS * turns**2 * 0.5)
+        k = 4 * PAIR.F_C * PAIR.radius(overlap) ** 1.5
+        omega = math.sqrt(2 * k * PAIR.R / I)
+        spin = 0.2 * THETA * omega / 2    # a fifth of the critical angle
+        distance = 1 - overlap
+        v = np.array([0.0, 0.5 * turns * distance, 0.0])
+        drift = np.array(drift)
+        step = step_of(PAIR, MASS / 2) / 2
+        steps = round(20 * 2 * math.pi / omega / step)
+        script = models([((3, 4, 4), drift - v, (0, 0, turns + spin)),
+                         ((3 + distance, 4, 4), drift + v, (0, 0, turns - spin))], PARTS)
+        rows = table(program, script + f"fix move all nve/sphere\ntimestep {step}\n"
+                     f"compute spin all property/atom omegaz\nthermo {steps // 200}\n" +
+                     thermo("c_spin[1]-c_spin[2]") + f"\nrun {steps}\n", ranks)
+        exact = np.cos(omega * step * rows[:, 0])
+        return np.abs(rows[:, 1] / (2 * spin) - exact).max()
+
+    def test_rolls_as_an_oscillator(self):
+        self.assertLess(self.roll(0.0, REST), 0.01)
+
+    def test_rolls_alike_while_it_tumbles_through_the_boundaries(self):
+        omega = math.sqrt(8 * PAIR.F_C * PAIR.R / (0.1 * MASS))
+        turns = omega / 20
+        duration = 20 * 2 * math.pi / omega    # one turn
+        drift = (16 / duration, 16 / duration, 0.0)    # through the box twice: i and j change places
+        self.assertLess(self.roll(turns, drift), 0.02)
+        self.assertLess(self.roll(turns, drift, ranks=2), 0.02)
+
+
+class Impact(unittest.TestCase):
+    """A sphere meets another head-on."""
+
+    def restitution(self, speed, finer=10, **words):
+        """Relative speed long after, by that before; 0 when they stick."""
+        step = step_of(PAIR, MASS / 2) / finer
+        rows = table(program, pair_on_x(0.01 * PAIR.delta_C, -speed, **words) +
+                     f"fix move all nve/sphere\ntimestep {step}\nthermo {400 * finer}\n" +
+                     thermo("x[2]-x[1]-1", "vx[2]-vx[1]") + f"\nrun {400 * finer}\n")
+        return rows[-1, 2] / speed if rows[-1, 1] > PAIR.delta_C else 0.0
+
+    def test_sticking_velocity(self):
+        V_s = math.sqrt(2 * 0.935503 * PAIR.F_C * PAIR.delta_C / (MASS / 2))
+        self.assertEqual(self.restitution(0.97 * V_s), 0.0)
+        for share in (1.03, 1.5, 3.0):
+            self.assertAlmostEqual(self.restitution(share * V_s), math.sqrt(1 - share**-2),
+                                   delta=0.03 if share < 1.1 else 0.005)
+
+    def test_restitution_without_adhesion(self):
+        for e in (0.9, 0.5, 0.2):
+            self.assertAlmostEqual(self.restitution(1.0, restitution=e, adhesion=0.0) / e, 1.0,
+                                   delta=0.005)
+
+
+class Errors(unittest.TestCase):
+    """What a script must not say."""
+
+    def error_of(self, words):
+        text, _ = run(program, pair_on_x(0.1, 0.0, words=words) +
+                      "fix move all nve/sphere\nrun 0\n")
+        return text
+
+    def test_parts_need_the_normal_model(self):
+        self.assertIn("twisting on needs tangential adhesive", self.error_of("twisting on"))
+        self.assertIn("rollingDamping needs rolling_friction dominik_tielens",
+                      self.error_of("rollingDamping 0.1"))
+        self.assertNotIn("ERROR", self.error_of(PARTS + " rollingDamping 0.1"))
+
+
+if __name__ == "__main__":
+    program = shutil.which(sys.argv.pop(1) if len(sys.argv) > 1 else "lmp_liggghts")
+    if not program:
+        print("skipped: no LIGGGHTS with our contact models; contrib/liggghts/build makes it")
+        sys.exit(77)
+    unittest.main(verbosity=2)
