@@ -56,6 +56,7 @@ fix mean all ave/grid 1 1 1 8 8 8 f_cloud:grid:data f_drag:grid:data[1] f_drag:g
 timestep 1.0e-6
 thermo_style custom step f_floor f_floor[1] f_floor[1][1] f_shear[1] f_cloud[1] f_drag[1] f_in[1] f_move[1] &
   c_aggregates[1] c_deposit[1] c_energy[1] pe
+thermo_modify norm no
 """)
 folder = tempfile.mkdtemp()
 grid_file = os.path.join(folder, "grid")
@@ -121,7 +122,6 @@ check("wall/levelset [7], contacts", vector[6], 1, 0)
 energy = lmp.extract_fix("floor", LMP_STYLE_GLOBAL, LMP_TYPE_SCALAR)
 rows = lmp.extract_fix("floor", LMP_STYLE_GLOBAL, LMP_SIZE_ROWS)
 columns = lmp.extract_fix("floor", LMP_STYLE_GLOBAL, LMP_SIZE_COLS)
-check("wall/levelset: rows of its array", rows, 2 if rows == 2 else 3, 0)
 check("wall/levelset: columns", columns, 16, 0)
 whole = [lmp.extract_fix("floor", LMP_STYLE_GLOBAL, LMP_TYPE_ARRAY, nrow=rows - 1, ncol=n) for n in range(columns)]
 check("wall/levelset, whole wall: force", whole[2], vector[2])
@@ -160,13 +160,13 @@ h = local[0][4] / a0
 check("pair/local: overlap from the contact radius", a0**2 / (2 * R) * (2 * h**2 - 4 / 3 * math.sqrt(h)), GAP, 1.0e-12)
 energies = vector_of("pair", "energy", 5, lmp.extract_compute)
 check("pair: energies add up to that of pair/local", sum(energies), local[0][1])
-check("pair and wall: potential energy", lmp.get_thermo("pe"), sum(energies), 1.0)
+check("pair: potential energy", lmp.get_thermo("pe"), sum(energies))
 
 # ---- integrator and inlet
 lmp.command("run 3")
 vector = vector_of("nve/sphere/mts", "move", 6, lmp.extract_fix)
-for n, expected in ((0, 4), (1, 1), (2, 2), (3, 12), (4, 0)):
-    check(f"nve/sphere/mts [{n + 1}]", vector[n], expected, 0)
+for n, expected in ((0, 4), (1, 2 / lmp.get_natoms()), (2, 2), (3, 12), (4, 0)):
+    check(f"nve/sphere/mts [{n + 1}]", vector[n], expected)
 vector = vector_of("inlet/flow", "in", 10, lmp.extract_fix)
 entered = vector[0]
 check("inlet/flow [1], entered", entered, lmp.get_natoms() - 2, 0)
