@@ -45,7 +45,7 @@ pair_coeff 1 1 jkr 1.0e6 0.25 100 damping alpha 1 sliding 0.3 twisting yes rolli
 fix floor all wall/levelset plane z 0 NULL jkr 1.0e6 0.25 100
 fix shear all flow/field shear x z 0 {RATE} density {DENSITY} viscosity {VISCOSITY}
 fix cloud all flow/concentration 8 8 8 cloud 1 every 1
-fix drag all flow/force shear drag stokes torque yes feedback yes concentration cloud
+fix drag all flow/force shear drag stokes torque yes concentration cloud feedback yes
 fix in all inlet/flow x 1 shear number 1 every 1000 diameter 0.2 density 1 type 1 seed 7
 fix move all nve/sphere/mts collision 4
 compute aggregates all aggregate/contact
