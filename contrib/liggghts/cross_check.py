@@ -51,10 +51,11 @@ def impact(dialect, program, restitution=1.0, mu=0.0, angle=0.0):
     step = DURATION / STEPS
     script = scene(dialect, [((3, 4 - back, 4), half, REST), ((4 + gap, 4 + back, 4), -half, REST)],
                    laws(dialect, restitution, mu))
-    return table(program, script + "fix move all nve/sphere\ncompute spin all property/atom omegaz\n"
+    return table(program, script + "fix move all nve/sphere\ncompute spins g1 property/atom omegaz\n"
+                 "compute spin g1 reduce sum c_spins\n"
                  f"timestep {step:.17g}\nthermo 1\n" +
                  thermo("x[2]-x[1]", "y[2]-y[1]", "fx[2]", "vx[2]-vx[1]", "vy[2]-vy[1]",
-                        "c_spin[1]") + f"\nrun {3 * STEPS}\n")
+                        "c_spin") + f"\nrun {3 * STEPS}\n")
 
 
 def hertz(dialect, program):

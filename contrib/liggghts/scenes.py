@@ -93,7 +93,7 @@ def run(program, script, ranks=1):
         if ranks > 1:
             command = ["mpirun", "-np", str(ranks), *command]
         done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True,
-                              timeout=120)
+                              errors="replace")
     number = r"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?"
     rows = [[float(word) for word in line.split()] for line in done.stdout.splitlines()
             if re.fullmatch(rf"\s*\d+(?:\s+{number})+\s*", line)]
