@@ -1,5 +1,5 @@
-// libFuzzer: bytes as a surface file of flowgrid (FUZZ_ENDING: .stl, .vtp or .obj). It is refused by
-// a message with its name, or gives triangles of finite points, which are then made whole. Built
+// libFuzzer: bytes as a surface file of flowgrid (FUZZ_ENDING: .stl, .vtp or .obj). It is refused
+// by a message with its name, or gives triangles of finite points, which are then made whole. Built
 // and run by unittest/fuzz/run.
 
 #include "input_folder.h"
