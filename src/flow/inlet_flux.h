@@ -54,8 +54,9 @@ class InletFlux {
     for (int first = 0; first < rows * columns; first += block_width) {
       points.n = std::min(block_width, rows * columns - first);
       for (int l = 0; l < points.n; l++) {
+        const int row = (first + l) / columns, column = (first + l) % columns;
         double x[3];
-        plane.point(node(0, (first + l) / columns), node(1, (first + l) % columns), x);
+        plane.point(node(0, row), node(1, column), x);
         points.set(l, x);
       }
       sample(points, fluid);

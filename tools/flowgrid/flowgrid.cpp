@@ -4,6 +4,7 @@
 #include "mapping.h"
 #include "options.h"
 #include "report.h"
+#include "vtk_guard.h"
 #include "vtk_input.h"
 #include "vtkhdf_writer.h"
 #include "wall_output.h"
@@ -189,11 +190,16 @@ void map_walls(const Options &o)
 int main(int argc, char **argv)
 {
   const Options options = parse(argc, argv);
+  guard_against_files();
   try {
     if (options.input.empty())
       map_walls(options);
     else
       map(options);
+  } catch (const std::bad_alloc &) {
+    fprintf(stderr, "flowgrid: %s: there is not enough memory for a grid of this --spacing\n",
+            options.output.c_str());
+    return 1;
   } catch (const std::exception &error) {
     fprintf(stderr, "flowgrid: %s\n", error.what());
     return 1;

@@ -46,17 +46,24 @@ struct Plot3dText {
   }
 
  private:
+  static bool is_count(double a) { return a >= 1.0 && a == std::floor(a); }
+
   // how many there must be in the file; 0 if there cannot be such a file
   static double numbers(const std::vector<double> &first, bool many, bool flat, bool marks)
   {
     const int axes = flat ? 2 : 3;
-    const double blocks = many ? first[0] : 1.0;
     const size_t sizes = many ? 1 : 0, values = axes + marks;
-    if (!(blocks >= 1.0) || first.size() < sizes + axes * blocks) return 0.0;
+    if (first.size() < sizes) return 0.0;
+    const double blocks = many ? first[0] : 1.0;
+    if (!is_count(blocks) || static_cast<double>(first.size()) < sizes + axes * blocks) return 0.0;
     double sum = static_cast<double>(sizes) + axes * blocks;
-    for (size_t b = 0; b < blocks; b++) {
+    for (size_t b = 0; b < static_cast<size_t>(blocks); b++) {
       double points = 1.0;
-      for (int a = 0; a < axes; a++) points *= first[sizes + axes * b + a];
+      for (int a = 0; a < axes; a++) {
+        const double n = first[sizes + axes * b + a];
+        if (!is_count(n)) return 0.0;
+        points *= n;
+      }
       sum += points * static_cast<double>(values);
     }
     return sum;

@@ -40,6 +40,8 @@ namespace {
     const Periods &periods;
     ShapeTree &tree;
     size_t at = 0;
+    int depth = 0;    // of shapes within shapes
+    static constexpr int deepest = 100;
 
     [[noreturn]] void stop(const std::string &why) const
     {
@@ -112,7 +114,10 @@ namespace {
         stop("expected a shape: " + std::string(known));
       }
       at++;
+      if (++depth > deepest)
+        stop("shapes may be nested " + std::to_string(deepest) + " deep, not deeper");
       const int node = named(name, begin);
+      depth--;
       expect(')');
       return node;
     }

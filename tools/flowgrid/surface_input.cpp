@@ -2,23 +2,48 @@
 
 #include "decimals.h"
 #include "shape_parser.h"
+#include "vtk_guard.h"
 
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkObject.h>
+#include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 namespace flowgrid {
 
 namespace {
+
+  // VTK makes room for as many triangles as a binary file says that it has.
+  void check_stl(const std::string &path)
+  {
+    struct Reader : vtkSTLReader {
+      static Reader *New() { VTK_STANDARD_NEW_BODY(Reader); }
+      using vtkSTLReader::GetSTLFileType;
+    };
+    vtkNew<Reader> reader;
+    constexpr int binary = 1;    // as vtkSTLReader.cxx has it
+    if (reader->GetSTLFileType(path.c_str()) != binary) return;
+    constexpr std::uintmax_t head = 84, each = 50;    // bytes
+    unsigned char bytes[head] = {};
+    std::ifstream(path, std::ios::binary).read(reinterpret_cast<char *>(bytes), head);
+    std::uintmax_t count = 0;
+    for (int k = 3; k >= 0; k--) count = 256 * count + bytes[80 + k];
+    const auto size = std::filesystem::file_size(path);
+    if (size < head || count > (size - head) / each)
+      throw std::runtime_error(path + ": says that it has " + std::to_string(count) +
+                               " triangles, but is too short for them");
+  }
 
   vtkSmartPointer<vtkPolyData> read(const std::string &path)
   {
@@ -30,10 +55,13 @@ namespace {
     triangles->PassVertsOff();
     const auto from = [&](auto *reader) {
       reader->SetFileName(path.c_str());
+      reader->Update();
+      check_cells(path, reader->GetOutput());
       triangles->SetInputConnection(reader->GetOutputPort());
       triangles->Update();
     };
     if (end == ".stl") {
+      check_stl(path);
       vtkNew<vtkSTLReader> reader;
       reader->MergingOff();    // would drop triangles unseen
       from(reader.Get());
@@ -57,7 +85,10 @@ void read_surface(const std::string &words, double scale, Surface &surface)
   const std::string name = colon == std::string::npos ? std::filesystem::path(path).stem().string()
                                                       : words.substr(colon + 1);
   check_zone_name(name);
-  const auto data = read(path);
+  vtkSmartPointer<vtkPolyData> data;
+  by_vtk(path, [&] {
+    data = read(path);
+  });
   if (data->GetNumberOfCells() == 0)
     throw std::runtime_error(path + ": cannot be read, or holds no triangles");
   const bool single = data->GetPoints()->GetDataType() == VTK_FLOAT;

@@ -4,6 +4,7 @@
 #include "decimals.h"
 #include "mesh_walls.h"
 #include "plot3d_text.h"
+#include "vtk_guard.h"
 
 #include <vtkAppendFilter.h>
 #include <vtkCGNSReader.h>
@@ -158,7 +159,24 @@ VtkInput::VtkInput(const std::string &path, const std::vector<std::string> &wall
   vtkObject::GlobalWarningDisplayOff();
   if (!fs::exists(path)) stop(path, "does not exist");
   vtk->wall_names = wall_names;
-  const std::string end = ending(path);
+  by_vtk(file, [&] {
+    open(solution);
+    vtk->reader->UpdateInformation();
+    auto *about = vtk->reader->GetOutputInformation(0);
+    auto *key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
+    if (about->Has(key)) steps.assign(about->Get(key), about->Get(key) + about->Length(key));
+    read(steps.empty() ? 0 : static_cast<int>(steps.size()) - 1);
+    make_mesh();
+  });
+}
+
+VtkInput::~VtkInput() = default;
+
+/* ---------------------------------------------------------------------- */
+
+void VtkInput::open(const std::string &solution)
+{
+  const std::string &path = file, end = ending(path);
   if (fs::is_directory(path) || end == ".foam" || end == ".openfoam") {
     vtk->foam = true;
     vtk->case_folder = fs::is_directory(path) ? path : fs::path(path).parent_path().string();
@@ -198,16 +216,7 @@ VtkInput::VtkInput(const std::string &path, const std::vector<std::string> &wall
   } else
     stop(path,
          "must be an OpenFOAM case, .vtm, .vts, .vtu, .vti, .vtr, .vtk, .cgns or PLOT3D (.xyz)");
-
-  vtk->reader->UpdateInformation();
-  auto *about = vtk->reader->GetOutputInformation(0);
-  auto *key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
-  if (about->Has(key)) steps.assign(about->Get(key), about->Get(key) + about->Length(key));
-  read(steps.empty() ? 0 : static_cast<int>(steps.size()) - 1);
-  make_mesh();
 }
-
-VtkInput::~VtkInput() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -216,6 +225,14 @@ void VtkInput::read(int step)
 {
   if (vtk->grid && step == vtk->step) return;
   vtk->step = step;
+  by_vtk(file, [&] {
+    read_blocks();
+  });
+}
+
+void VtkInput::read_blocks()
+{
+  const int step = vtk->step;
   if (steps.empty())
     vtk->reader->Update();
   else
@@ -234,6 +251,7 @@ void VtkInput::read(int step)
       auto *set = vtkDataSet::SafeDownCast(it->GetCurrentDataObject());
       if (!set) continue;
       auto *surface = vtk->foam ? vtkPolyData::SafeDownCast(set) : nullptr;
+      check_cells(file, set);
       if (surface) {
         const char *name = it->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME());
         if (!patches_known)
@@ -244,8 +262,10 @@ void VtkInput::read(int step)
       }
       sets.push_back(set);
     }
-  } else if (auto *set = vtkDataSet::SafeDownCast(data))
+  } else if (auto *set = vtkDataSet::SafeDownCast(data)) {
+    check_cells(file, set);
     sets.push_back(set);
+  }
   if (sets.empty()) stop(file, "cannot be read, or holds no mesh");
 
   // surfaces beside a mesh in space are no part of it, and need not have its fields

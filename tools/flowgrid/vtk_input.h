@@ -47,7 +47,9 @@ class VtkInput {
   std::vector<double> steps;
   std::vector<int> walls;    // points of wall patches
 
+  void open(const std::string &solution);
   void read(int step);
+  void read_blocks();
   void make_mesh();
   Field field(const std::string &name, int components, const char *what);
   std::vector<double> from_cells(const std::vector<double> &values, int components) const;

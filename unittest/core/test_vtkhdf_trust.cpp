@@ -1,6 +1,6 @@
 // A VTKHDF file is not trusted: it holds its numbers itself, and what it says of their size is
-// checked before there is memory for them. The other file of these tests is right in itself, so only
-// the rule keeps it from being read.
+// checked before there is memory for them. The other file of these tests is right in itself, so
+// only the rule keeps it from being read.
 
 #include "flow/vtkhdf_file.h"
 #include "vtkhdf_writer.h"

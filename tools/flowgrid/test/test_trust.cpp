@@ -1,0 +1,143 @@
+// Files are not trusted: what they say of sizes and of points is checked before it is used, and
+// where VTK crashes on one the program says on which.
+
+#include "program.h"
+
+#include "gtest/gtest.h"
+
+#include <fstream>
+
+using namespace flowgrid;
+
+namespace {
+
+std::string vtu(const std::string &corners, const std::string &ends, const std::string &types,
+                const std::string &cells = "1")
+{
+  return "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+         "header_type=\"UInt64\"><UnstructuredGrid>"
+         "<Piece NumberOfPoints=\"4\" NumberOfCells=\"" +
+      cells +
+      "\"><PointData><DataArray type=\"Float64\" Name=\"U\" NumberOfComponents=\"3\" "
+      "format=\"ascii\">"
+      "0 0 0 1 0 0 0 1 0 0 0 1</DataArray></PointData><Points><DataArray type=\"Float64\" "
+      "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 "
+      "1</DataArray></Points><Cells>"
+      "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" +
+      corners + "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + ends +
+      "</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" + types +
+      "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+}
+
+class Trust : public testing::Test {
+ protected:
+  const Folder folder;
+
+  Result run(const std::string &name, const std::string &contents, const std::string &words = "")
+  {
+    std::ofstream(folder / name, std::ios::binary) << contents;
+    return flowgrid_with((folder / name) + " " + (folder / "out.vtkhdf") + " --spacing 0.3 " +
+                         words);
+  }
+  Result run_surface(const std::string &name, const std::string &contents)
+  {
+    std::ofstream(folder / name, std::ios::binary) << contents;
+    return flowgrid_with((folder / "out.vtkhdf") +
+                         " --spacing 0.3 --bounds -1 1 -1 1 -1 1 --wall-surface " +
+                         (folder / name));
+  }
+  // refused, by a message with the name of the file and these words
+  void expect_refused(const Result &result, const std::string &name, const std::string &words)
+  {
+    EXPECT_EQ(result.status, 1) << result.text;
+    EXPECT_NE(result.text.find((folder / name) + ": "), std::string::npos) << result.text;
+    EXPECT_NE(result.text.find(words), std::string::npos) << result.text;
+  }
+};
+
+}    // namespace
+
+TEST_F(Trust, a_tetrahedron_is_read)
+{
+  EXPECT_EQ(run("good.vtu", vtu("0 1 2 3", "4", "10")).status, 0);
+}
+
+TEST_F(Trust, corners_must_be_points_of_the_mesh)
+{
+  expect_refused(run("far.vtu", vtu("0 1 2 99", "4", "10")), "far.vtu",
+                 "a cell has point 99, but there are 4 points");
+  expect_refused(run("far.vtu", vtu("0 1 2 -1", "4", "10")), "far.vtu", "a cell has point -1");
+  expect_refused(run("far.vtu", vtu("0 1 2 9223372036854775807", "4", "10")), "far.vtu",
+                 "a cell has point 92233720368547758");
+}
+
+TEST_F(Trust, cells_must_have_the_corners_of_their_type)
+{
+  expect_refused(run("few.vtu", vtu("0 1 2", "3", "10")), "few.vtu",
+                 "cell 0 has 3 corners, but its type has 4");
+  expect_refused(run("few.vtu", vtu("0 1 2 3", "4", "12")), "few.vtu", "but its type has 8");
+}
+
+TEST_F(Trust, lists_of_corners_must_ascend)
+{
+  expect_refused(run("end.vtu", vtu("0 1 2 3 0 1 2 3", "-4 8", "10 10", "2")), "end.vtu", "");
+  expect_refused(run("end.vtu", vtu("0 1 2 3", "400000000", "10")), "end.vtu", "");
+}
+
+TEST_F(Trust, sizes_that_are_not_there)
+{
+  expect_refused(run("huge.vtu", vtu("0 1 2 3", "4", "10", "4000000000000")), "huge.vtu", "");
+  expect_refused(
+      run("huge.vti",
+          "<VTKFile type=\"ImageData\" version=\"1.0\"><ImageData WholeExtent=\"0 100000 0 "
+          "100000 0 100000\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece Extent=\"0 100000 0 "
+          "100000 0 100000\"><PointData/></Piece></ImageData></VTKFile>"),
+      "huge.vti", "");
+  expect_refused(run("huge.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                     "POINTS 99999999999 float\n0 0 0\n"),
+                 "huge.vtk", "");
+}
+
+TEST_F(Trust, surfaces_that_say_more_than_they_have)
+{
+  std::string stl(80, 'x');
+  stl += "\xff\xff\xff\xff" + std::string(50, '\xff');
+  expect_refused(run_surface("huge.stl", stl), "huge.stl",
+                 "says that it has 4294967295 triangles, but is too short for them");
+  expect_refused(run_surface("far.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n"), "far.obj",
+                 "a cell has point 98, but there are 3 points");
+}
+
+TEST_F(Trust, plot3d_of_a_part_of_a_block)
+{
+  std::ofstream(folder / "q") << "0\n";
+  const std::string words = "--solution " + (folder / "q");
+  for (const char *text : {"2.5 2 2 2 2 2 2\n", "-1 2 2\n", "1e9 2 2 2\n", " \n"})
+    expect_refused(run("part.xyz", text, words), "part.xyz", "");
+}
+
+TEST_F(Trust, names_of_other_files_within_a_file)
+{
+  expect_refused(run("blocks.vtm",
+                     "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\"><vtkMultiBlockDataSet>"
+                     "<DataSet index=\"0\" file=\"../../../../../../etc/passwd\"/>"
+                     "<DataSet index=\"1\" file=\"%s%n\"/></vtkMultiBlockDataSet></VTKFile>"),
+                 "blocks.vtm", "");
+}
+
+// CGNS's library ends the program, and knows no name.
+TEST_F(Trust, what_ends_the_program_is_named)
+{
+  expect_refused(run("text.cgns", "no mesh"), "text.cgns", "VTK failed while it read this file");
+}
+
+TEST_F(Trust, shapes_within_shapes_end)
+{
+  std::string deep = "a: ";
+  for (int k = 0; k < 10000; k++) deep += "inside(";
+  const auto result = flowgrid_with((folder / "out.vtkhdf") +
+                                    " --spacing 0.3 --bounds 0 1 0 1 0 1 --shape '" + deep + "'");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.text.find("shapes may be nested 100 deep"), std::string::npos);
+}

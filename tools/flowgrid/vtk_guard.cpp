@@ -1,0 +1,184 @@
+#include "vtk_guard.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <unistd.h>
+
+namespace flowgrid {
+
+namespace {
+
+  const char *volatile file_read = nullptr;
+
+  void say(const char *text)
+  {
+    const auto written = write(2, text, std::strlen(text));
+    if (written < 0) _exit(1);
+  }
+
+  // only what may be called within a handler of signals
+  void name_file()
+  {
+    if (!file_read) return;
+    say("flowgrid: ");
+    say(file_read);
+    say(": VTK failed while it read this file, which is damaged or of a kind that VTK does not "
+        "know\n");
+    _exit(1);
+  }
+  void answer(int signal)
+  {
+    name_file();
+    raise(signal);    // of its own default by now
+  }
+
+  [[noreturn]] void stop(const std::string &file, const std::string &why)
+  {
+    throw std::runtime_error(file + ": " + why);
+  }
+
+  // corners of a cell of VTK's type, 0 if its number is its own
+  vtkIdType corners_of(int type)
+  {
+    switch (type) {
+      case VTK_VERTEX:
+        return 1;
+      case VTK_LINE:
+        return 2;
+      case VTK_TRIANGLE:
+        return 3;
+      case VTK_QUAD:
+      case VTK_PIXEL:
+      case VTK_TETRA:
+        return 4;
+      case VTK_PYRAMID:
+        return 5;
+      case VTK_WEDGE:
+        return 6;
+      case VTK_HEXAHEDRON:
+      case VTK_VOXEL:
+        return 8;
+      default:
+        return 0;
+    }
+  }
+
+  std::string whole(double a)
+  {
+    char text[400];
+    std::snprintf(text, sizeof(text), "%.0f", a);
+    return text;
+  }
+
+  // VTK reads lists of corners as they are in the file and follows them.
+  void check_corners(const std::string &file, vtkCellArray *cells, vtkIdType npoints)
+  {
+    auto *begins = cells->GetOffsetsArray(), *corners = cells->GetConnectivityArray();
+    const vtkIdType count = corners->GetNumberOfValues();
+    double last = 0.0;
+    for (vtkIdType c = 0; c < begins->GetNumberOfValues(); c++) {
+      const double begin = begins->GetComponent(c, 0);
+      if (!(begin >= last && begin <= static_cast<double>(count)))
+        stop(file, "cell " + std::to_string(c) + " begins outside of the list of corners");
+      last = begin;
+    }
+    for (vtkIdType k = 0; k < count; k++) {
+      const double point = corners->GetComponent(k, 0);
+      if (!(point >= 0.0 && point < static_cast<double>(npoints)))
+        stop(file,
+             "a cell has point " + whole(point) + ", but there are " + std::to_string(npoints) +
+                 " points");
+    }
+  }
+
+}    // namespace
+
+// A file of which nothing but its size is known may ask for so much memory: zlib makes no more than
+// 1032 bytes of one. A .vtm and an OpenFOAM case have others beside them.
+static rlim_t memory_of(const std::string &file)
+{
+  std::error_code none;
+  const std::filesystem::path path(file);
+  if (!std::filesystem::is_regular_file(path, none) || path.extension() == ".vtm" ||
+      path.extension() == ".foam")
+    return RLIM_INFINITY;
+  return (rlim_t(4) << 30) + 1032 * std::filesystem::file_size(path, none);
+}
+
+ReadByVtk::ReadByVtk(const std::string &file) : name_before(file_read), limit_before(RLIM_INFINITY)
+{
+  file_read = file.c_str();
+  rlimit memory{};
+  getrlimit(RLIMIT_DATA, &memory);
+  limit_before = memory.rlim_cur;
+  if (limit_before == RLIM_INFINITY) return;    // without guard_against_files(): fuzzers
+  memory.rlim_cur = std::min(memory.rlim_cur, memory_of(file));
+  setrlimit(RLIMIT_DATA, &memory);
+}
+
+ReadByVtk::~ReadByVtk()
+{
+  file_read = name_before;
+  rlimit memory{};
+  getrlimit(RLIMIT_DATA, &memory);
+  memory.rlim_cur = limit_before;
+  setrlimit(RLIMIT_DATA, &memory);
+}
+
+void check_cells(const std::string &file, vtkDataSet *set)
+{
+  const vtkIdType npoints = set->GetNumberOfPoints();
+  if (auto *surface = vtkPolyData::SafeDownCast(set))
+    for (auto *cells :
+         {surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips()})
+      check_corners(file, cells, npoints);
+  auto *grid = vtkUnstructuredGrid::SafeDownCast(set);
+  if (!grid || !grid->GetCells()) return;
+  check_corners(file, grid->GetCells(), npoints);
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); c++) {
+    const auto expected = corners_of(grid->GetCellType(c));
+    if (expected && grid->GetCells()->GetCellSize(c) != expected)
+      stop(file,
+           "cell " + std::to_string(c) + " has " +
+               std::to_string(grid->GetCells()->GetCellSize(c)) + " corners, but its type has " +
+               std::to_string(expected));
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void guard_against_files()
+{
+  std::atexit(name_file);        // CGNS's library ends programs
+  static char stack[1 << 16];    // since a stack that overflowed has no room for the handler
+  stack_t other{};
+  other.ss_sp = stack;
+  other.ss_size = sizeof(stack);
+  sigaltstack(&other, nullptr);
+  struct sigaction action {};
+  action.sa_handler = answer;
+  action.sa_flags = SA_ONSTACK | SA_RESETHAND;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    sigaction(signal, &action, nullptr);
+
+  const double pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  rlimit memory{};
+  if (pages <= 0.0 || page <= 0.0 || getrlimit(RLIMIT_DATA, &memory) != 0) return;
+  const auto most = static_cast<rlim_t>(pages * page);
+  if (memory.rlim_cur == RLIM_INFINITY || memory.rlim_cur > most) memory.rlim_cur = most;
+  setrlimit(RLIMIT_DATA, &memory);
+}
+
+}    // namespace flowgrid

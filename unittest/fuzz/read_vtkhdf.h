@@ -1,0 +1,59 @@
+// Reads all of a VTKHDF file as the fixes do: it is refused by an error with a reason, or all of it
+// is finite and as long as its grid says.
+
+#ifndef APF_FUZZ_READ_VTKHDF_H
+#define APF_FUZZ_READ_VTKHDF_H
+
+#include "require.h"
+
+#include "flow/vtkhdf_file.h"
+
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+namespace fuzz {
+
+inline void require_reason(const std::string &text)
+{
+  require_reason(text,
+                 {"HDF5", "VTKHDF", "Type", "Version", "WholeExtent", "Spacing", "Origin",
+                  "Direction", "Steps", "Values", "array", "attribute", "opened"});
+}
+
+inline void read_array(const apf::VtkhdfFile &file, const std::string &array, int components,
+                       int frame)
+{
+  try {
+    const auto &grid = file.grid();
+    const auto values = file.read(array, components, frame, grid.n[2]);
+    require(values.size() == grid.nodes() * components, "an array is as long as the grid says");
+    for (const double value : values) require(std::isfinite(value), "values are finite");
+  } catch (std::bad_alloc &) {    // the fixes say that the file is too large
+  } catch (std::runtime_error &error) {
+    require_reason(error.what());
+  }
+}
+
+inline void read_vtkhdf(const std::string &path)
+{
+  try {
+    const apf::VtkhdfFile file(path);
+    const auto &grid = file.grid();
+    for (int k = 0; k < 3; k++)
+      require(grid.n[k] > 0 && grid.spacing[k] > 0.0 && std::isfinite(grid.origin[k]), "a grid");
+    const int frames = file.times().empty() ? 1 : static_cast<int>(file.times().size());
+    auto names = file.arrays();
+    if (names.size() > 3) names.resize(3);
+    names.insert(names.end(), {"velocity", "distance"});
+    for (const int frame : {0, frames - 1})
+      for (const int components : {1, 3})
+        for (const auto &array : names) read_array(file, array, components, frame);
+  } catch (std::runtime_error &error) {
+    require_reason(error.what());
+  }
+}
+
+}    // namespace fuzz
+
+#endif
