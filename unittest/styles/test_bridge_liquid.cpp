@@ -1,0 +1,290 @@
+// Liquid bridges over ranks, rebuilds and restarts, and the liquid that particles and walls own.
+
+#include "../criterion.h"
+#include "wet_spheres.h"
+
+namespace {
+
+// ---- ranks, rebuilds, restart
+
+const std::string sticky = "jkr 1.0e6 0.25 20.0 damping alpha 0.3 sliding 0.3 rolling 0.02 "
+                           "bridge 0.02 40.0 10 0.3 0.01 tangential yes ";
+
+// a lump of wet spheres, some touching, some bridged, some apart, and a bullet
+const std::vector<Sphere> lump = {{0.0, 0.0, 0.0},    {0.995, 0.0, 0.0}, {0.49, 0.86, 0.0},
+                                  {0.49, 0.29, 0.81}, {-0.7, -0.7, 0.0}, {2.1, 0.7, 0.3, 0.5}};
+
+struct Trip {
+  std::string law = sticky, integrate, commands, newton = "on", processors = "* * *";
+  std::vector<double> from = {4.0, 4.0, 4.0}, v = {0.0, 0.0, 0.0};
+  int steps = 100;
+  bool restart = false;
+};
+
+State travelled(const Trip &trip)
+{
+  auto spheres = lump;
+  for (auto &sphere : spheres) {
+    sphere.x = snap(sphere.x) + trip.from[0];
+    sphere.y = snap(sphere.y) + trip.from[1];
+    sphere.z = snap(sphere.z) + trip.from[2];
+  }
+  Scene scene;
+  scene.newton = trip.newton;
+  scene.processors = trip.processors;
+  scene.style = granular(trip.law);
+  const int n = static_cast<int>(lump.size());
+  const std::string rest = "neighbor 0.6 bin\n" + trip.commands + trip.integrate;
+  const std::string file = scratch_file("lump.restart");
+  State state;
+  {
+    Simulation sim;
+    build(sim, spheres, scene);
+    for (int a = 0; a < n; a++) {
+      const double s = a == n - 1 ? -25.0 : 2.0 * (a % 3) - 1.0;
+      set_motion(sim, a + 1, {trip.v[0] + s, trip.v[1] - 0.7 * s, trip.v[2] + 0.3 * s},
+                 {2.0 - a, 0.5 * a, 1.0});
+    }
+    sim.run(rest + "run " + std::to_string(trip.restart ? trip.steps / 2 : trip.steps));
+    if (trip.restart) sim.run("write_restart " + file);
+    state = state_of(sim);
+  }
+  if (trip.restart) {
+    Simulation sim;
+    sim.run("newton " + trip.newton + "\nprocessors " + trip.processors +
+            "\natom_modify map array\nread_restart " + file + "\ncomm_modify vel yes\n" + rest +
+            "run " + std::to_string(trip.steps - trip.steps / 2));
+    std::remove(file.c_str());
+    state = state_of(sim);
+  }
+  for (int a = n - 1; a >= 0; a--)
+    for (int c = 0; c < 3; c++) {
+      const double d = state.x[3 * a + c] - state.x[c];
+      state.x[3 * a + c] = d - 8.0 * std::round(d / 8.0);
+      state.v[3 * a + c] -= trip.v[c];
+    }
+  return state;
+}
+
+const State &reference()
+{
+  Trip trip;
+  trip.integrate = verlet(dt);
+  trip.steps = 1600;
+  static const State state = travelled(trip);
+  return state;
+}
+
+TEST(RanksBridge, lump_is_the_same_under_mts_and_on_all_ranks)
+{
+  for (const std::string newton : {"on", "off"})
+    for (const std::vector<double> &from :
+         std::vector<std::vector<double>>{{4.0, 4.0, 4.0}, {7.875, 7.75, 0.125}}) {
+      Trip trip;
+      trip.newton = newton;
+      trip.from = from;
+      trip.integrate = mts(16);
+      SCOPED_TRACE(newton + digits(from[0]));
+      expect_same(travelled(trip), reference(), 1e-9);
+    }
+}
+
+TEST(RanksBridge, lump_travels_with_rebuilds_at_every_step)
+{
+  const std::string n = std::to_string(number_of_ranks());
+  for (const std::string newton : {"on", "off"})
+    for (const std::string &processors : {n + " 1 1", "1 1 " + n}) {
+      Trip trip;
+      trip.newton = newton;
+      trip.processors = processors;
+      trip.integrate = mts(16);
+      trip.v = {48.0, -32.0, 64.0};
+      trip.commands = "neigh_modify delay 0 every 1 check no\natom_modify sort 7 1.0\n";
+      SCOPED_TRACE(newton + processors);
+      expect_same(travelled(trip), reference(), 1e-7);
+    }
+}
+
+TEST(RanksBridge, lump_under_respa_equals_verlet)
+{
+  Trip trip;
+  trip.integrate = verlet(16.0 * dt) + "run_style respa 2 16 pair 1\n";
+  expect_same(travelled(trip), reference(), 1e-9);
+}
+
+TEST(RanksBridge, restart_goes_on)
+{
+  for (const bool sub_steps : {false, true}) {
+    Trip trip;
+    trip.integrate = sub_steps ? mts(16) : verlet(dt);
+    trip.steps = sub_steps ? 100 : 1600;
+    trip.restart = true;
+    expect_same(travelled(trip), reference(), 1e-9);
+  }
+}
+
+// ---- liquid that particles own
+
+// A dense suspension in shear between two walls: bridges form and rupture all the time.
+std::string sheared(const std::string &liquid, const std::string &film, int side)
+{
+  const std::string law = "jkr 1.0e5 0.25 1.0 damping alpha 0.5 sliding 0.3 bridge 0.02 5.0 0 0.05 "
+                          "0.01 " +
+      liquid;
+  const std::string n = std::to_string(side);
+  return "units lj\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
+         "boundary p p f\nnewton on\nlattice sc 0.7\nregion box block 0 " +
+      n + " 0 " + n + " 0 " + n +
+      "\ncreate_box 1 box\ncreate_atoms 1 box\ndisplace_atoms all move 0 0 0.45 units lattice\n"
+      "set group all diameter 1.0 density 1.0\nvelocity all create 30.0 4711 loop geom\n"
+      "neighbor 0.4 bin\npair_style granular/adhesive\npair_coeff * * " +
+      law + "\nvariable top equal zhi\nfix w all wall/levelset plane z 0 $(v_top) " + law + film +
+      "\n";
+}
+const std::string shearing =
+    "fix nve all nve/sphere\nfix s all addforce v_fx 0 0\ntimestep 0.0005\n";
+const std::string measuring = "variable fx atom 20*(z-zhi/2)\ncompute agg all aggregate/contact\n"
+                              "compute sum all reduce sum c_agg[6]\nthermo_style custom step c_sum "
+                              "f_w[12]\nthermo 1000\n";
+
+TEST(RanksBridge, liquid_is_conserved_in_shear_and_through_a_restart)
+{
+  struct {
+    std::string split;
+    double film;    // on the walls; -1: they give nothing
+    int side = 5, steps = 300;
+  } cases[] = {{"inventory 0.3", -1.0},
+               {"inventory 0.3 origin", -1.0},
+               {"inventory 1.0 form film", -1.0},
+               {"inventory 0.3", 0.01},
+               {"inventory 1.0 origin form film", 0.002},
+               {"inventory 0.3", 0.01, 22, 60}};    // 10,648 particles
+  for (const auto &[split, thickness, side, steps] : cases) {
+    const std::string film = thickness < 0.0 ? "" : " film " + digits(thickness);
+    const double area = 2.0 * std::pow(side * std::cbrt(1.0 / 0.7), 2);
+    const double all = side * side * side * 0.02 * pi / 6.0 + std::max(0.0, thickness) * area;
+    const std::string file = scratch_file("liquid.restart");
+    double bridges = 0.0, before = 0.0;
+    {
+      Simulation sim;
+      sim.run(sheared(split, film, side) + measuring + shearing + "run " + std::to_string(steps) +
+              "\nwrite_restart " + file);
+      before = sim.value("c_sum + f_w[12]");
+      sim.run("compute bonds all reduce sum c_agg[5]\nrun 0 post no");
+      bridges = sim.value("c_bonds");
+      EXPECT_GT(bridges, 30.0);
+      EXPECT_NEAR(before / all, 1.0, 1e-12);
+    }
+    Simulation sim;
+    sim.run("atom_modify map array\nread_restart " + file +
+            "\ncomm_modify vel yes\nneighbor 0.4 bin\n"
+            "variable top equal zhi\nfix w all wall/levelset plane z 0 $(v_top) jkr 1.0e5 0.25 1.0 "
+            "damping alpha 0.5 sliding 0.3 bridge 0.02 5.0 0 0.05 0.01 " +
+            split + film + "\n" + measuring + shearing +
+            "compute bonds all reduce sum c_agg[5]\nrun 0 post no");
+    EXPECT_EQ(sim.value("c_bonds"), bridges);
+    sim.run("run " + std::to_string(steps));
+    expect_criterion("C22 verlet: liquid of all bodies over that in the beginning, less 1",
+                     std::fabs(sim.value("c_sum + f_w[12]") / all - 1.0), 0.0, 1e-12);
+    sim.run("compute least all reduce min c_agg[6]\nrun 0 post no");
+    EXPECT_GE(sim.value("c_least"), 0.0);
+    std::remove(file.c_str());
+  }
+}
+
+// A bridge takes a share of both; at rupture each gets half.
+TEST(BridgeStyle, liquid_moves_from_the_wet_to_the_dry)
+{
+  Liquid water;
+  for (const bool even : {true, false}) {
+    Simulation sim;
+    Scene scene;
+    scene.types = 2;
+    scene.type = {1, 2};
+    Liquid less = water;
+    less.l = 0.001;
+    const std::string rest = std::string("inventory 0.5 ") + (even ? "even" : "origin") + "\n";
+    scene.style = "pair_style granular/adhesive\npair_coeff 1 1 " + elastic + water.words() + rest +
+        "pair_coeff 2 2 " + elastic + less.words() + rest + "pair_coeff 1 2 " + elastic +
+        water.words() + rest;
+    build(sim, {{3.0, 4.0, 4.0}, {3.9999, 4.0, 4.0}}, scene);
+    sim.run("compute b all aggregate/contact\nrun 0");
+    const double a = 0.01 * pi / 6.0, b = 0.001 * pi / 6.0;
+    EXPECT_NEAR(of_atom(sim, 1, 6) / a, 1.0, 1e-12);
+    Liquid both = water;
+    both.l = 0.5 * (0.01 + 0.001);
+    sim.run("set atom 2 x 4.05\nrun 0");
+    EXPECT_NEAR(sim.value("fx[1]") / both.pull(0.05), 1.0, 1e-10);
+    sim.run("set atom 2 x 4.5\nrun 0\nrun 1");
+    EXPECT_EQ(of_atom(sim, 1, 5), 0.0);
+    EXPECT_NEAR(of_atom(sim, 1, 6) / (even ? 0.5 * a + 0.25 * (a + b) : a), 1.0, 1e-12);
+    EXPECT_NEAR(of_atom(sim, 2, 6) / (even ? 0.5 * b + 0.25 * (a + b) : b), 1.0, 1e-12);
+  }
+}
+
+// A wall with a film gives the share of what lies under the particle, pi r^2 of it.
+TEST(BridgeStyle, film_of_a_wall_gives_and_takes)
+{
+  const Liquid water;
+  const double f = 0.5, thickness = 0.01, own = water.l * pi / 6.0;
+  const double given = f * thickness * pi * 0.25, taken = f * own, wall = thickness * 64.0;
+  for (const bool even : {true, false}) {
+    Simulation sim;
+    Scene scene;
+    scene.boundary = "f p p";
+    const std::string law = elastic + water.words() + "inventory 0.5 " + (even ? "even" : "origin");
+    scene.style = granular(law) + "fix w all wall/levelset plane x 0 NULL " + law + " film 0.01\n";
+    build(sim, {{0.4999, 4.0, 4.0}, {4.0, 6.0, 4.0}}, scene);
+    sim.run("timestep 1.0e-13\ncompute b all aggregate/contact\nrun 0");
+    EXPECT_NEAR(sim.value("f_w[11]") / (given + taken), 1.0, 1e-12) << "in the bridge";
+    EXPECT_NEAR(sim.value("f_w[12]") / wall, 1.0, 1e-12);
+    EXPECT_NEAR(sim.value("f_w[1][16]") / (wall - given), 1.0, 1e-12) << "on the zone";
+    EXPECT_NEAR(of_atom(sim, 1, 6) / own, 1.0, 1e-12);
+    sim.run("set atom 1 x 1.5\nrun 0 post no\nrun 1 post no");
+    const double back = even ? 0.5 * (given + taken) : given;
+    EXPECT_EQ(sim.value("f_w[10]"), 0.0);
+    EXPECT_NEAR(sim.value("f_w[12]") / (wall - given + back), 1.0, 1e-12);
+    EXPECT_NEAR(of_atom(sim, 1, 6) / (own - taken + (given + taken - back)), 1.0, 1e-12);
+    EXPECT_GT(std::fabs(taken - given), 0.1 * given) << "else a swap would not show";
+  }
+  Simulation sim;
+  Scene scene;
+  scene.boundary = "f p p";
+  build(sim, {{2.0, 4.0, 4.0}}, scene);
+  const std::string fix = "fix v all wall/levelset plane x 0 NULL " + elastic + water.words();
+  EXPECT_NE(sim.error_of(fix + "film 0.01").find("needs a law with keyword inventory"),
+            std::string::npos);
+  EXPECT_NE(sim.error_of(fix + "inventory 0.5 film -1").find("must be >= 0, got -1"),
+            std::string::npos);
+}
+
+// film 0 gives back what the wall has got; a film that begins after a restart comes on top of it.
+TEST(BridgeStyle, film_begins_dry_or_after_a_restart)
+{
+  const Liquid water;
+  const std::string file = scratch_file("film.restart");
+  const std::string law = elastic + water.words() + "inventory 0.5 even";
+  const std::string wall = "fix w all wall/levelset plane x 0 NULL " + law;
+  const double own = water.l * pi / 6.0, got = 0.25 * own;
+  for (const bool film : {false, true}) {
+    Simulation sim;
+    Scene scene;
+    scene.boundary = "f p p";
+    scene.style = granular(law) + wall + (film ? " film 0\n" : "\n");
+    build(sim, {{0.4999, 4.0, 4.0}}, scene);
+    sim.run("timestep 1.0e-13\nrun 0\nset atom 1 x 1.5\nrun 0 post no\nrun 1 post no");
+    EXPECT_NEAR(sim.value("f_w[12]") / got, 1.0, 1e-12);
+    if (!film) sim.run("write_restart " + file);
+    sim.run("set atom 1 x 0.4999\nrun 0 post no");
+    const double given = film ? 0.5 * got / 64.0 * pi * 0.25 : 0.0;
+    EXPECT_NEAR(sim.value("f_w[11]") / (0.5 * (own - got) + given), 1.0, 1e-12);
+    EXPECT_NEAR(sim.value("f_w[1][16]") / (got - given), 1.0, 1e-12);
+  }
+  Simulation sim;
+  sim.run("atom_modify map array\nread_restart " + file + "\ncomm_modify vel yes\n" + wall +
+          " film 0.01\nrun 0");
+  EXPECT_NEAR(sim.value("f_w[12]") / (got + 0.64), 1.0, 1e-12);
+  std::remove(file.c_str());
+}
+
+}    // namespace
