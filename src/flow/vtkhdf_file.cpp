@@ -197,11 +197,11 @@ namespace {
 
 /* ---------------------------------------------------------------------- */
 
-VtkhdfFile::VtkhdfFile(const std::string &path)
+VtkhdfFile::VtkhdfFile(const std::string &path_in) : path(path_in)
 {
   const Quiet quiet;
   try {
-    open(path);
+    open();
     read_grid();
     read_steps();
   } catch (...) {
@@ -221,7 +221,7 @@ void VtkhdfFile::close()
   if (file >= 0) H5Fclose(file);
 }
 
-void VtkhdfFile::open(const std::string &path)
+void VtkhdfFile::open()
 {
   if (std::FILE *readable = std::fopen(path.c_str(), "rb"))
     std::fclose(readable);
@@ -229,7 +229,19 @@ void VtkhdfFile::open(const std::string &path)
     fail(std::string("cannot be opened: ") + std::strerror(errno));
   if (H5Fis_hdf5(path.c_str()) <= 0) fail("is not an HDF5 file");
   file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) fail("is a damaged or truncated HDF5 file");
+  // HDF5 shares a file that this program has open already, and takes it to be as it was
+  hsize_t bytes = 0;
+  if (file < 0 || H5Fget_filesize(file, &bytes) < 0 || std::filesystem::file_size(path) < bytes)
+    fail("is a damaged or truncated HDF5 file");
+  written = std::filesystem::last_write_time(path);
+}
+
+// A file that was removed is still there for those who have it open.
+void VtkhdfFile::check_unchanged() const
+{
+  std::error_code gone;
+  const auto now = std::filesystem::last_write_time(path, gone);
+  if (!gone && now != written) fail("was changed after it had been opened");
 }
 
 void VtkhdfFile::read_grid()
@@ -383,6 +395,7 @@ std::vector<double> VtkhdfFile::read(const std::string &array, int components, i
                                      int layers) const
 {
   const Quiet quiet;
+  check_unchanged();
   if (!exists(points, array.c_str())) {
     std::string list;
     for (const auto &name : arrays()) list += " " + name;

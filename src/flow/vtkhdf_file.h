@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -45,12 +46,15 @@ class VtkhdfFile {
     std::uint64_t offset = 0;               // of the frame, along time
   };
 
-  std::int64_t file = -1, points = -1;    // of HDF5: the file, its group PointData
+  std::string path;
+  std::filesystem::file_time_type written{};    // when the file was changed last, as it was opened
+  std::int64_t file = -1, points = -1;          // of HDF5: the file, its group PointData
   ImageGrid image;
   std::vector<double> step_times;
   std::size_t nsteps = 0;    // of group Steps, 0 without it
 
-  void open(const std::string &path);
+  void open();
+  void check_unchanged() const;
   void close();
   void read_grid();
   void read_steps();

@@ -140,10 +140,39 @@ TEST(RanksFaults, flow_file_replaced_in_mid_run)
   sim.run("run 10");
   EXPECT_NEAR(gather(sim, "v")[0], 2.0, 1e-6) << "truncated";
   // and a truncated one is refused
-  EXPECT_NE(
-      sim.error_of("fix other all flow/field file " + file.path + " density 1e-3 viscosity 1e4")
-          .find(file.path),
-      std::string::npos);
+  const auto said =
+      sim.error_of("fix other all flow/field file " + file.path + " density 1e-3 viscosity 1e4");
+  EXPECT_NE(said.find(file.path), std::string::npos) << said;
+}
+
+// The third frame of a series is read when it is due; the file is another by then
+TEST(RanksFaults, series_changed_in_mid_run)
+{
+  const std::vector<double> times = {0.0, 0.1, 0.2, 0.3};
+  const auto series = [&](double speed) {
+    return [&times, speed](VtkhdfWriter &w) {
+      w.steps(times);
+      w.field(
+          "velocity", 3,
+          [speed](const double *, double, double *u) {
+            u[0] = speed;
+          },
+          times);
+    };
+  };
+  TemporaryFile file("apf_series");
+  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, series(2.0));
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}});
+  sim.run("fix air all flow/field file " + file.path +
+          " density 1e-3 viscosity 1e4\ntimestep 0.01\n"
+          "fix drag all flow/force air drag stokes\nfix nve all nve/sphere\nrun 5");
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (TemporaryFile::rank() == 0)
+    std::filesystem::last_write_time(file.path, std::filesystem::file_time_type::clock::now());
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto said = sim.error_of("run 20");
+  EXPECT_NE(said.find("was changed after it had been opened"), std::string::npos) << said;
 }
 
 TEST(RanksFaults, nan_in_a_field_is_refused)
