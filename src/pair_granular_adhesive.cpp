@@ -67,8 +67,9 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
     find_rigid_masses();
     build_candidates();
   }
-  const auto times = store->take_velocities();
   auto &bodies = store->bodies();
+  const bool forgets = bodies.forgets_touched();
+  const auto times = store->take_velocities();
   const double no_torque[3] = {};
   for (const auto &load : store->due) bodies.add_load(load.row, load.f, no_torque);
   if (wet) {
@@ -78,8 +79,9 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   // contacts open with first touch and end with the neck
   detect(true, times.advance);
   if (store->count_contacts()) share_masses();
-  for (const auto *touched : {&contacts.i, &contacts.j})
-    for (const int i : *touched) bodies.touch(i);
+  if (forgets)
+    for (const auto *touched : {&contacts.i, &contacts.j})
+      for (const int i : *touched) bodies.touch(i);
 
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
@@ -227,6 +229,7 @@ void PairGranularAdhesive::build_candidates()
       }
     }
   }
+  store->bodies().forget_touched();
   rebuild = false;
 }
 
@@ -313,6 +316,7 @@ void PairGranularAdhesive::remove_ended(bool in_sub_step)
       candidates.closed[contacts.source[k]] = 0;
       if (in_sub_step) candidates.near.push_back(contacts.source[k]);
       store->count_anew();
+      store->bodies().forget_touched();
       contacts.remove(k);
     }
 }

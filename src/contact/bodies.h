@@ -100,6 +100,10 @@ class Bodies {
   // have none: set_all() and those who read loads then leave that half of their rows alone.
   void touch(int i) { touched[i] = 1; }
   bool may_have_load(int i) const { return touched[i]; }
+  // Contacts have ended: set_all() makes a new start, after which those that are left have to touch
+  // their bodies again.
+  void forget_touched() { starts_anew = true; }
+  bool forgets_touched() const { return starts_anew; }
 
   // rows as the planar or the spatial code sees them
   template <class Row> Row *rows();
@@ -135,8 +139,7 @@ class Bodies {
     });
   }
 
-  // the first n rows at once; x, v, omega, f, torque are [n][3]; set_all() leaves no loads, and no
-  // row that may have one
+  // the first n rows at once; x, v, omega, f, torque are [n][3]; set_all() leaves no loads
   void place_all(int n, const double (*x)[3])
   {
     with_rows([=](auto *row) {
@@ -153,7 +156,8 @@ class Bodies {
         if (touched[i]) clear(row[i]);
       }
     });
-    std::fill_n(touched.begin(), n, 0);
+    if (starts_anew) std::fill_n(touched.begin(), n, 0);
+    starts_anew = false;
   }
   void add_loads_to_all(int n, double (*f)[3], double (*torque)[3]) const
   {
@@ -217,6 +221,7 @@ class Bodies {
   std::vector<PlaneRow> plane;    // one of the two is used
   std::vector<SpaceRow> space;
   std::vector<char> touched;    // rows that may have loads
+  bool starts_anew = true;
 
   template <class Action> void with_row(int i, Action action)
   {
