@@ -110,8 +110,8 @@ def run_cloud(args, name, size, ranks, folder):
 def run_channel(args, ranks, folder):
     """One run of the channel."""
     variables = {"t": args.time, "step": PARTICLE_STEP, "dir": folder, "picture": 2 * args.time + 1}
-    text, resident = run_and_weigh(args, CHANNEL, variables, folder, ranks)
-    return sample(text, resident, ranks, args.time / PARTICLE_STEP)
+    _, resident = run_and_weigh(args, CHANNEL, variables, folder, ranks)
+    return sample((folder / "channel-phi50.log").read_text(), resident, ranks, args.time / PARTICLE_STEP)
 
 
 def measure(args, folder):
