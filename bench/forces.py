@@ -7,9 +7,7 @@ Prints, and writes to results/forces.txt with a plot in results/forces.png, the 
 step of each set of forces, for a flow given by a formula and for gridded ones. README.md says more.
 Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
 """
-import argparse
 import re
-import shutil
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -22,7 +20,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lammps_runs import HERE, Failure, processor, run_lammps, stop
+from lammps_runs import (HERE, Failure, parse_rounds, processor, rounds_parser, run_lammps,
+                         stop)
 
 PARTICLES = 10000
 L, U = 1e-3, 0.5    # box and largest velocity, as in in.forces
@@ -143,20 +142,9 @@ def plot(times, path):
 
 def main():
     """Parses the command line, measures and writes."""
-    parser = argparse.ArgumentParser(description="Measures what forces of a fluid cost.")
-    parser.add_argument("--quick", action="store_true", help="two rounds")
-    parser.add_argument("--rounds", type=int, default=9, help="runs of each case (default 9)")
-    parser.add_argument("--steps", type=int, default=100, help="steps of a run (default 100)")
-    parser.add_argument("--lmp", default=HERE.parent / "lmp",
-                        help="LAMMPS that loads APF (default ../lmp)")
+    parser = rounds_parser("Measures what forces of a fluid cost.", rounds=9, steps=100)
     parser.add_argument("--keep", type=Path, help="folder for the last flow and log")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for table and plot (default results)")
-    args = parser.parse_args()
-    if args.quick:
-        args.rounds = 2
-    args.lmp = shutil.which(args.lmp) or stop(f"{args.lmp}: not there; --lmp names another")
-    args.results.mkdir(parents=True, exist_ok=True)
+    args = parse_rounds(parser)
     with tempfile.TemporaryDirectory() as scratch:
         folder = args.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)

@@ -1,7 +1,9 @@
 """Runs of LAMMPS for the scripts here: command lines, logs, kept results."""
+import argparse
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -14,6 +16,30 @@ CHANNEL = HERE.parent / "examples" / "channel" / "in.channel"
 def stop(reason):
     """Ends with exit code 1 and a message."""
     sys.exit(f"{Path(sys.argv[0]).name}: {reason}")
+
+
+def rounds_parser(description, rounds, steps):
+    """Options of a script that measures in rounds; parse_rounds() takes them."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--quick", action="store_true", help="two rounds")
+    parser.add_argument("--rounds", type=int, default=rounds,
+                        help=f"runs of each case (default {rounds})")
+    parser.add_argument("--steps", type=int, default=steps, help=f"steps of a run (default {steps})")
+    parser.add_argument("--lmp", default=HERE.parent / "lmp",
+                        help="LAMMPS that loads APF (default ../lmp)")
+    parser.add_argument("--results", type=Path, default=HERE / "results",
+                        help="folder for what is written (default results)")
+    return parser
+
+
+def parse_rounds(parser):
+    """The command line; the program is there, and the folder of the results."""
+    args = parser.parse_args()
+    if args.quick:
+        args.rounds = 2
+    args.lmp = shutil.which(args.lmp) or stop(f"{args.lmp}: not there; --lmp names another")
+    args.results.mkdir(parents=True, exist_ok=True)
+    return args
 
 
 def prose(text):

@@ -7,9 +7,7 @@ Prints, and writes to results/walls.txt, the time per particle and step of a wal
 particles in contact, of those that come near, and of those that are far. README.md says more.
 Needs Debian's python3-numpy and python3-h5py.
 """
-import argparse
 import re
-import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -17,7 +15,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from lammps_runs import HERE, Failure, processor, run_lammps, stop
+from lammps_runs import (HERE, Failure, parse_rounds, processor, rounds_parser, run_lammps,
+                         stop)
 
 AROUND, ALONG, R = 33, 99, 19.0    # spheres of diameter 1; radius of the cylinder
 LAW = "jkr 1e6 0.25 10 damping tsuji 0.3 sliding 0.3 rolling 0.01"
@@ -100,19 +99,7 @@ def table(times, args):
 
 def main():
     """Parses the command line, measures and writes."""
-    parser = argparse.ArgumentParser(description="Measures what walls cost.")
-    parser.add_argument("--quick", action="store_true", help="two rounds")
-    parser.add_argument("--rounds", type=int, default=5, help="runs of each case (default 5)")
-    parser.add_argument("--steps", type=int, default=200, help="steps of a run (default 200)")
-    parser.add_argument("--lmp", default=HERE.parent / "lmp",
-                        help="LAMMPS that loads APF (default ../lmp)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for the table (default results)")
-    args = parser.parse_args()
-    if args.quick:
-        args.rounds = 2
-    args.lmp = shutil.which(args.lmp) or stop(f"{args.lmp}: not there; --lmp names another")
-    args.results.mkdir(parents=True, exist_ok=True)
+    args = parse_rounds(rounds_parser("Measures what walls cost.", rounds=5, steps=200))
     with tempfile.TemporaryDirectory() as scratch:
         try:
             times = measure(args, Path(scratch).resolve())

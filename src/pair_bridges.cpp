@@ -102,6 +102,8 @@ void PairBridges::form(int k, const apf::Approach &approach, double step)
   const auto bodies = pair->bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0);
   list.set_mass(added, bodies.m / bodies.crowding);
   meetings.closed[k] = 1;
+  store->bodies().touch(i);
+  store->bodies().touch(j);
   store->count_anew();
 }
 
@@ -130,11 +132,7 @@ apf::BridgeMemory PairBridges::intake(int i, int j) const
 int PairBridges::add_forces(apf::Bodies &bodies, const apf::ContactTimes &times,
                             apf::BridgeParts *to)
 {
-  for (int b = 0; b < list.size(); b++) {
-    list.set_touching(b, pair->is_closed(list.source[b]));
-    bodies.touch(list.i[b]);
-    bodies.touch(list.j[b]);
-  }
+  for (int b = 0; b < list.size(); b++) list.set_touching(b, pair->is_closed(list.source[b]));
   return apf::add_bridge_forces(kernel, list, bodies, times, store->due, to);
 }
 

@@ -79,9 +79,14 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   // contacts open with first touch and end with the neck
   detect(true, times.advance);
   if (store->count_contacts()) share_masses();
-  if (forgets)
-    for (const auto *touched : {&contacts.i, &contacts.j})
-      for (const int i : *touched) bodies.touch(i);
+  if (forgets) {
+    auto touch_all = [&bodies](const auto &list) {
+      for (const int i : list.i) bodies.touch(i);
+      for (const int j : list.j) bodies.touch(j);
+    };
+    touch_all(contacts);
+    touch_all(bridges.all());
+  }
 
   const bool tallied = evflag != 0;
   if (tallied) parts.resize(contacts.size());
@@ -118,6 +123,8 @@ void PairGranularAdhesive::detect(bool all, double step)
         store->note_touch(approach, candidates.touch[k],
                           kind_of(i, j).mode);    // one of the ranks that see it
       close(k, apf::ContactHistory());
+      store->bodies().touch(i);
+      store->bodies().touch(j);
       if (step > 0.0) apf::correct_touch(contacts, contacts.size() - 1, rows, step, store->due);
     };
     if (all)
@@ -241,8 +248,6 @@ void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
   const int added = contacts.add(i, j, k, number_of_kind(i, j), history);
   contacts.set_crowding(added, bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0));
   candidates.closed[k] = 1;
-  store->bodies().touch(i);
-  store->bodies().touch(j);
   store->count_anew();
 }
 

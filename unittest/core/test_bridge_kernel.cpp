@@ -1,6 +1,7 @@
 // The kernel of bridges as a machine: every build against the law taken bridge by bridge, lists,
 // parts, and the viscous step where it is solved by iteration.
 
+#include "compare.h"
 #include "scalar_kernel.h"
 
 #include <gtest/gtest.h>
@@ -88,20 +89,6 @@ struct Crowd {
     return all;
   }
 };
-
-double largest(const std::vector<double> &values)
-{
-  double m = 0.0;
-  for (const double value : values) m = std::max(m, std::fabs(value));
-  return m;
-}
-
-void expect_same(const std::vector<double> &a, const std::vector<double> &b, double tolerance)
-{
-  const double scale = largest(b) + 1e-30;
-  for (size_t c = 0; c < a.size(); c++)
-    ASSERT_NEAR((a[c] - b[c]) / scale, 0.0, tolerance) << "component " << c;
-}
 
 }    // namespace
 

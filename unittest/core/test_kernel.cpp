@@ -1,5 +1,6 @@
 // The kernel as a machine: blocks, parts, lists, energy, walls.
 
+#include "compare.h"
 #include "scalar_kernel.h"
 #include "two_bodies.h"
 
@@ -110,20 +111,6 @@ struct Crowd {
   }
   std::vector<ContactList> results;
 };
-
-double largest(const std::vector<double> &values)
-{
-  double m = 0.0;
-  for (const double value : values) m = std::max(m, std::fabs(value));
-  return m;
-}
-
-void expect_same(const std::vector<double> &a, const std::vector<double> &b, double tolerance)
-{
-  const double scale = largest(b) + 1e-30;
-  for (size_t c = 0; c < a.size(); c++)
-    ASSERT_NEAR((a[c] - b[c]) / scale, 0.0, tolerance) << "component " << c;
-}
 
 std::array<double, ContactHistory::size> numbers(const ContactHistory &h)
 {
