@@ -125,6 +125,7 @@ void *PairGranularAdhesive::extract(const char *name, int &dim)
 
 double PairGranularAdhesive::memory_usage()
 {
-  return Pair::memory_usage() + bridges.memory_usage() + contacts.memory_usage() + tiles.memory_usage() +
-      candidates.memory_usage() + parts.capacity() * sizeof(apf::ContactParts);
+  return Pair::memory_usage() + bridges.memory_usage() + contacts.memory_usage() +
+      tiles.memory_usage() + candidates.memory_usage() +
+      parts.capacity() * sizeof(apf::ContactParts);
 }
