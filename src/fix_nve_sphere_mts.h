@@ -113,7 +113,9 @@ class FixNVESphereMTS : public Fix {
   void end_slow_kicks();
   void sub_step_active();
   template <class Row> void sub_step_active();
-  std::vector<int> form_tiles(std::vector<int> &moving, const std::vector<int> &held);
+  template <class Row>
+  std::vector<apf::Kick<Row>> begin_steps(const std::vector<int> &moving, Row *rows);
+  apf::ByTile form_tiles(std::vector<int> &moving, const std::vector<int> &held);
   void drift_free();
   bigint late_contacts() const;
 };

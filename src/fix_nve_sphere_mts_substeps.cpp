@@ -10,7 +10,6 @@
 #include "pair_granular_adhesive.h"
 
 #include <algorithm>
-#include <numeric>
 
 using namespace LAMMPS_NS;
 
@@ -44,57 +43,46 @@ template <class Row> void FixNVESphereMTS::sub_step_active()
     bodies.set_motion(i, atom->v[i], atom->omega[i]);
     (atom->mask[i] & groupbit ? moving : held).push_back(i);
   }
-  const auto last_of_tile = form_tiles(moving, held);
+  const auto tiles = form_tiles(moving, held);
+  Row *rows = bodies.rows<Row>();
+  const auto kicks = begin_steps(moving, rows);
 
   const double dt = collision_step();
-  Row *rows = bodies.rows<Row>();
-  std::vector<apf::Kick<Row>> kicks;
-  kicks.reserve(moving.size());
-  for (const int i : moving) {
-    const auto slow = slow_of(i);
-    std::copy_n(slow.a, 3, slow_before[i].begin());
-    std::copy_n(slow.alpha, 3, slow_before[i].begin() + 3);
-    apf::Kick<Row>::of(slow, 0.5 * dt).apply(rows[i]);
-    apf::drift(rows[i], dt);
-    kicks.push_back(apf::Kick<Row>::of(slow, dt));
-  }
-
   const apf::ContactTimes times{dt, 0.5 * dt, dt};
-  auto move = [&](int first, int last) {
-    for (int k = first; k < last; k++) {
+  auto move = [&](int tile) {
+    for (int k = tiles.first(tile); k < tiles.first(tile + 1); k++) {
       kicks[k].apply(rows[moving[k]]);
       apf::drift(rows[moving[k]], dt);
     }
   };
-  auto step_together = [&](int last) {    // the bodies that have to do with others, and all keepers
+  auto step_together = [&] {    // tile 0: what has to do with ghosts and with all keepers
     for (int step = 1; step < n_collision; step++) {
       foresight.exchange.forward(rows, 1.0 - static_cast<double>(step) / n_collision);
       for (const int i : held) bodies.clear_loads(i, i + 1);
       for (const int i : foresight.exchange.ghosts()) bodies.clear_loads(i, i + 1);
       for (auto *keeper : keepers) keeper->sub_step(times);
       if (force->newton_pair) foresight.exchange.reverse(rows);
-      move(0, last);
+      move(0);
     }
   };
-  auto step_alone = [&](int first, int last) {
+  auto step_alone = [&](int tile) {
     for (int step = 1; step < n_collision; step++) {
       history->sub_step(times);
-      move(first, last);
+      move(tile);
     }
   };
 
-  const int tiles = static_cast<int>(last_of_tile.size());
-  if (tiles == 1) {
-    step_together(last_of_tile[0]);
+  if (tiles.size() == 1) {
+    step_together();
   } else {
     auto &pair = history->served();
     pair.part(islands);
-    for (int t = 0; t < tiles; t++) {
-      pair.enter_tile(t);
-      if (t == 0)
-        step_together(last_of_tile[0]);
+    for (int tile = 0; tile < tiles.size(); tile++) {
+      pair.enter_tile(tile);
+      if (tile == 0)
+        step_together();
       else
-        step_alone(last_of_tile[t - 1], last_of_tile[t]);
+        step_alone(tile);
       pair.leave_tile();
     }
     pair.join_tiles();
@@ -106,16 +94,36 @@ template <class Row> void FixNVESphereMTS::sub_step_active()
   }
 }
 
-/* ----------------------------------------------------------------------
-   Puts bodies in the order of their tiles (contact/islands.h) and tells where each ends. There is
-   one tile where several would gain nothing.
-------------------------------------------------------------------------- */
+// Half a kick by the forces as they stand, and the first drift; returns the kicks to come.
+template <class Row>
+std::vector<apf::Kick<Row>> FixNVESphereMTS::begin_steps(const std::vector<int> &moving, Row *rows)
+{
+  const double dt = collision_step();
+  std::vector<apf::Kick<Row>> kicks;
+  kicks.reserve(moving.size());
+  for (const int i : moving) {
+    const auto slow = slow_of(i);
+    std::copy_n(slow.a, 3, slow_before[i].begin());
+    std::copy_n(slow.alpha, 3, slow_before[i].begin() + 3);
+    apf::Kick<Row>::of(slow, 0.5 * dt).apply(rows[i]);
+    apf::drift(rows[i], dt);
+    kicks.push_back(apf::Kick<Row>::of(slow, dt));
+  }
+  return kicks;
+}
 
-std::vector<int> FixNVESphereMTS::form_tiles(std::vector<int> &moving, const std::vector<int> &held)
+// The tiles (contact/islands.h) of bodies, which come into the order of these; a single one where
+// several would gain nothing.
+apf::ByTile FixNVESphereMTS::form_tiles(std::vector<int> &moving, const std::vector<int> &held)
 {
   const int n = static_cast<int>(moving.size());
   auto &pair = history->served();
-  if (n_collision == 1 || pair.pairs_to_step() < 2 * pairs_of_tile || !pair.has_tiles()) return {n};
+  const int pairs = pair.pairs_to_step();
+  apf::ByTile tiles;
+  tiles.sort(n, 1, [](int) {
+    return 0;
+  });
+  if (n_collision == 1 || pairs < 2 * pairs_of_tile || !pair.has_tiles()) return tiles;
 
   islands.begin(atom->nlocal + atom->nghost);
   for (const int i : held) islands.pin(i);
@@ -123,17 +131,13 @@ std::vector<int> FixNVESphereMTS::form_tiles(std::vector<int> &moving, const std
   for (auto *keeper : keepers) keeper->pin(islands);
   pair.join_bodies(islands);
   islands.form_tiles(moving, pairs_of_tile);
-  if (islands.size() == 1) return {n};
+  if (islands.pinned() > pairs / 2) return tiles;
 
-  std::vector<int> last(islands.size(), 0);
-  for (const int i : moving) last[islands.tile_of(i)]++;
-  std::partial_sum(last.begin(), last.end(), last.begin());
-  apf::ByTile order;
-  order.sort(n, islands.size(), [&](int k) {
+  tiles.sort(n, islands.size(), [&](int k) {
     return islands.tile_of(moving[k]);
   });
   std::vector<int> in_order(n);
-  for (int k = 0; k < n; k++) in_order[k] = moving[order.begin(0)[k]];
+  for (int k = 0; k < n; k++) in_order[k] = moving[tiles.begin(0)[k]];
   moving.swap(in_order);
-  return last;
+  return tiles;
 }

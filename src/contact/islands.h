@@ -1,6 +1,6 @@
-// Bodies that meet no others within a particle step, nor anything that meets others: an island takes
-// its collision steps by itself. Islands side by side make a tile, small enough for the cache, and
-// all collision steps of a tile are taken before the next one is looked at: memory is read once per
+// Bodies that meet no others within a particle step, nor anything that does: an island takes its
+// collision steps by itself. Islands side by side make a tile, small enough for the cache, and all
+// collision steps of a tile are taken before the next one is looked at: memory is read once per
 // particle step instead of once per collision step.
 
 #ifndef APF_ISLANDS_H
@@ -24,19 +24,10 @@ class Islands {
   }
 
   // bodies that touch, or may within the particle step
-  void join(int a, int b)
-  {
-    a = find(a);
-    b = find(b);
-    if (a > b) std::swap(a, b);
-    pairs[a] += 1;
-    if (a == b) return;
-    root[b] = a;
-    pairs[a] += pairs[b];
-  }
+  void join(int a, int b) { pairs[unite(a, b)]++; }
 
   // a body that has to do with others than bodies of this rank
-  void pin(int a) { join(a, common()); }
+  void pin(int a) { unite(a, common()); }
 
   // Gives islands to tiles, in the order of these bodies; a tile has few more than that many pairs.
   // Tile 0 is for what is pinned.
@@ -60,6 +51,7 @@ class Islands {
   }
 
   int size() const { return tiles; }
+  int pinned() { return pairs[find(common())]; }    // pairs in tile 0
   // of a body that is pinned, or whose island has one of those from which tiles were formed
   int tile_of(int body) const
   {
@@ -73,16 +65,25 @@ class Islands {
   }
 
  private:
-  std::vector<int>
-      root;    // of each body, a body of its island nearer to that with the least number
-  std::vector<int> pairs;    // of each island, at the body with the least number
-  std::vector<int> tile;     // of each island, at the same place
+  std::vector<int> root;    // of each body: one of its island, nearer to that with the least number
+  std::vector<int> pairs;    // of each island, at its body with the least number
+  std::vector<int> tile;     // of each island, there as well
   int tiles = 0;
 
   int common() const { return static_cast<int>(root.size()) - 1; }
   int find(int a)
   {
     while (root[a] != a) a = root[a] = root[root[a]];
+    return a;
+  }
+  int unite(int a, int b)
+  {
+    a = find(a);
+    b = find(b);
+    if (a == b) return a;
+    if (a > b) std::swap(a, b);
+    root[b] = a;
+    pairs[a] += pairs[b];
     return a;
   }
 };
@@ -92,25 +93,27 @@ class ByTile {
  public:
   template <class TileOf> void sort(int n, int tiles, TileOf tile_of)
   {
-    first.assign(tiles + 1, 0);
-    for (int k = 0; k < n; k++) first[tile_of(k) + 1]++;
-    std::partial_sum(first.begin(), first.end(), first.begin());
+    starts.assign(tiles + 1, 0);
+    for (int k = 0; k < n; k++) starts[tile_of(k) + 1]++;
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
     numbers.resize(n);
-    auto next = first;
+    auto next = starts;
     for (int k = 0; k < n; k++) numbers[next[tile_of(k)]++] = k;
   }
 
-  const int *begin(int tile) const { return numbers.data() + first[tile]; }
-  const int *end(int tile) const { return numbers.data() + first[tile + 1]; }
-  int size(int tile) const { return first[tile + 1] - first[tile]; }
+  int size() const { return static_cast<int>(starts.size()) - 1; }    // tiles
+  int first(int tile) const { return starts[tile]; }                  // place of its first number
+  int size(int tile) const { return starts[tile + 1] - starts[tile]; }
+  const int *begin(int tile) const { return numbers.data() + starts[tile]; }
+  const int *end(int tile) const { return numbers.data() + starts[tile + 1]; }
 
   double memory_usage() const    // [bytes]
   {
-    return (first.capacity() + numbers.capacity()) * sizeof(int);
+    return (starts.capacity() + numbers.capacity()) * sizeof(int);
   }
 
  private:
-  std::vector<int> first, numbers;
+  std::vector<int> starts, numbers;
 };
 
 }    // namespace apf

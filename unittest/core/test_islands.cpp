@@ -1,5 +1,5 @@
-// Which bodies take their collision steps together, and contacts that are taken out of a list tile by
-// tile and put back, against a flood fill and a plain map.
+// Which bodies take their collision steps together, and contacts that are taken out of a list tile
+// by tile and put back, against a flood fill and a plain map.
 
 #include "contact/contact_tiles.h"
 
