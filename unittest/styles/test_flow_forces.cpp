@@ -239,7 +239,8 @@ struct Cloud {
 };
 std::string cloud(int n, const Cloud &with = Cloud())
 {
-  return std::string("units lj\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n") +
+  return std::string("units lj\natom_style sphere\natom_modify map array\n"
+                     "comm_modify vel yes\n") +
       (with.planar ? "dimension 2\nregion box block 0 100 0 100 -0.5 0.5\n"
                    : "region box block 0 100 0 100 0 100\n") +
       "create_box 1 box\ncreate_atoms 1 random " + std::to_string(n) +
