@@ -259,8 +259,8 @@ double mean_decay(double z)
   return -std::expm1(-z) / z;
 }
 // <x^2>/2D after n steps of length h from rest, relaxation time tau. Velocities of mid-steps are
-// v' = e v' + (1 - e) B/k, e = exp(-h/tau), with a half step at the start; each B counts in all steps
-// that follow. For short steps t - 2 tau (1 - e^n) + tau/2 (1 - e^2n), t = n h.
+// v' = e v' + (1 - e) B/k, e = exp(-h/tau), with a half step at the start; each B counts in all
+// steps that follow. For short ones t - 2 tau (1 - e^n) + tau/2 (1 - e^2n), t = n h.
 double wandered(int n, double h, double tau)
 {
   const double e = std::exp(-h / tau);
