@@ -157,7 +157,8 @@ def measure(args, folder):
             times[name].append(seconds)
     times = {name: np.array(t) for name, t in times.items()}
     one, all_of_them = list(inputs)[1:]
-    times["each further time of the case"] = (times[all_of_them] - times[one]) / (SERIES - 1)
+    further = (times[all_of_them] - times[one]) / (SERIES - 1)
+    times["each further time of the case"] = further.round(2) + 0.0    # no -0.00
     return times, memory
 
 
