@@ -353,9 +353,8 @@ TEST(Brownian, in_the_plane_nothing_leaves_it)
 TEST(Brownian, with_added_mass_the_mass_of_equipartition_is_the_effective_one)
 {
   // (m + m_f/2) v' = -k v + B with <B B> = 2 kT k: <v^2> = kT/(m + m_f/2) per direction, as for a
-  // sphere in an incompressible fluid (R. Zwanzig, M. Bixon, J. Fluid Mech. 69, 21 (1975),
-  // doi:10.1017/S0022112075001280); it diffuses with kT/k, whatever its mass, and spins without
-  // added mass. Here m_f = m.
+  // sphere in an incompressible fluid (R. Zwanzig, M. Bixon, J. Fluid Mech. 69, 21, 1975); it
+  // diffuses with kT/k, whatever its mass, and spins without added mass. Here m_f = m.
   const double effective = 1.5;
   const int n = 8000;
   Cloud heavy;
