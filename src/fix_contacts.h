@@ -91,7 +91,7 @@ class FixContacts : public Fix {
 
   // numbers of the fix itself in restart files; called on all ranks
   virtual std::vector<double> global_state() const { return {}; }
-  virtual void set_global_state(const double *) {}
+  virtual void set_global_state(class RestartState &) {}
 
   // Takes the velocities for the forces of this step; returns the times that the kernel needs.
   // Collective at the first step of a run.

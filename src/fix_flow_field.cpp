@@ -6,6 +6,7 @@
 #include "flow_grid.h"
 #include "input.h"
 #include "modify.h"
+#include "restart_state.h"
 #include "update.h"
 #include "variable.h"
 
@@ -221,21 +222,19 @@ double FixFlowField::compute_vector(int n)
 void FixFlowField::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  const double list[] = {speed[0].value, speed[1].value, speed[2].value, speed[0].rate,
-                         speed[1].rate,  speed[2].rate,  evaluated_at};
-  const int size = sizeof(list);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(list, size, 1, fp);
+  RestartState::write(lmp, this,
+                      {speed[0].value, speed[1].value, speed[2].value, speed[0].rate, speed[1].rate,
+                       speed[2].rate, evaluated_at},
+                      fp);
 }
 
 void FixFlowField::restart(char *buffer)
 {
-  const auto *list = reinterpret_cast<const double *>(buffer);
-  for (int k = 0; k < 3; k++) {
-    speed[k].value = list[k];
-    speed[k].rate = list[k + 3];
-  }
-  evaluated_at = list[6];
+  RestartState state(lmp, this, buffer);
+  for (auto &s : speed) s.value = state.next();
+  for (auto &s : speed) s.rate = state.next();
+  evaluated_at = state.next();
+  state.end();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -70,7 +70,7 @@ class FixWallLevelset : public FixContacts {
   void add_counts(double *) override;
   int level() const override;
   std::vector<double> global_state() const override;
-  void set_global_state(const double *) override;
+  void set_global_state(class RestartState &) override;
 
  private:
   static constexpr const char *command = "Fix wall/levelset";

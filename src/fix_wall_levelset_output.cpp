@@ -7,6 +7,7 @@
 #include "compute_aggregate_contact.h"
 #include "domain.h"
 #include "fix_contact_history.h"
+#include "restart_state.h"
 
 #include <cstring>
 
@@ -75,14 +76,17 @@ std::vector<double> FixWallLevelset::global_state() const
   return state;
 }
 
-void FixWallLevelset::set_global_state(const double *state)
+void FixWallLevelset::set_global_state(RestartState &state)
 {
-  if (comm->me == 0) {    // counts are sums over ranks
-    captured = state[0];
-    detached = state[1];
+  const double *counts = state.next(2);
+  if (comm->me == 0) {    // they are sums over ranks
+    captured = counts[0];
+    detached = counts[1];
   }
-  if (state[2] != 0.0 && motion.pose.moves) motion.pose.read(state + 3);
-  ledger.set_state(state + 3 + apf::WallPose::state_size, fmt::format("{} {}", command, id));
+  const bool moved = state.next() != 0.0;
+  const double *pose = state.next(apf::WallPose::state_size);
+  if (moved && motion.pose.moves) motion.pose.read(pose);
+  ledger.set_state(state, fmt::format("{} {}", command, id));
 }
 
 /* ----------------------------------------------------------------------

@@ -27,9 +27,10 @@ struct Result {
   int status;
   std::string text;
 };
-inline Result flowgrid_with(const std::string &words)
+// before: what the shell does first
+inline Result flowgrid_with(const std::string &words, const std::string &before = "")
 {
-  FILE *pipe = popen((std::string(FLOWGRID) + " " + words + " 2>&1").c_str(), "r");
+  FILE *pipe = popen((before + " exec " + FLOWGRID + " " + words + " 2>&1").c_str(), "r");
   std::string text;
   char line[512];
   while (fgets(line, sizeof(line), pipe)) text += line;
