@@ -323,6 +323,12 @@ class Impact(unittest.TestCase):
             self.assertAlmostEqual(self.restitution(1.0, restitution=e, adhesion=0.0) / e, 1.0,
                                    delta=0.005)
 
+    def test_restitution_in_long_steps(self):
+        """A contact of 17 steps: velocities are half a step behind positions, and the dashpot knows."""
+        for e in (0.9, 0.7, 0.5):
+            self.assertAlmostEqual(self.restitution(1.0, finer=1, restitution=e, adhesion=0.0) / e,
+                                   1.0, delta=0.005)
+
 
 class Errors(unittest.TestCase):
     """What a script must not say."""
