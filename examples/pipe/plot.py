@@ -12,7 +12,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Ours, Run, arguments, conclude, read_report, read_runs
+from report import Run, arguments, conclude, read_runs, values_by_run
 
 STEP, VOLUME = 0.00263, np.pi / 6 * 0.04**3    # particle step, volume of a particle; as in in.pipe
 
@@ -117,8 +117,7 @@ def main():
         draw_history(adhesive, out / "figure25.png", (0.8 * 5080, 700, 5.5))
         draw_sizes(adhesive, out / "figure26.png")
         draw_profiles(adhesive, 2, out / "figure27.png", [])
-    values = {(run.name, key): Ours(value, t=run.t[-1]) for run in runs for key, value in values_of(run).items()}
-    conclude(HERE, read_report(HERE / "report.csv"), values, [run.cost("5080 particles") for run in runs], out, kept)
+    conclude(HERE, values_by_run(runs, values_of), [run.cost("5080 particles") for run in runs], out, kept)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Ours, Run, arguments, conclude, read_report, read_runs
+from report import Run, arguments, conclude, read_runs, values_by_run
 
 ZONES = {"front": "front of the bar", "edges": "edges of the fins", "channels": "walls of the channels"}
 # areas in mm^2: the front with its round corners; the fins behind their round edges, 1.8 mm long, both faces
@@ -45,8 +45,7 @@ def main():
     folder, out, kept = arguments(__doc__, HERE)
     runs = read_runs(folder, "radiator-*.captured", lambda path: Run(path, "radiator-"))
     draw(runs, out / "deposit.png")
-    values = {(run.name, key): Ours(value, t=run.t[-1]) for run in runs for key, value in values_of(run).items()}
-    conclude(HERE, read_report(HERE / "report.csv"), values,
+    conclude(HERE, values_by_run(runs, values_of),
              [run.cost(f"{run.history['entered'][-1]:.0f} entered") for run in runs], out, kept)
 
 
