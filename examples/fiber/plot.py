@@ -44,18 +44,20 @@ def words(run):
 
 def draw(runs, path):
     """Particles on the fiber, efficiency and dendrites over time (figures 32 to 34)."""
-    figure, axes = plt.subplots(1, 3, figsize=(13, 3.8), layout="constrained")
-    for run in runs:
-        for axis, key in zip(axes, ("captured", "TCE", "dendrite")):
-            axis.plot(run.t[1:], run.history[key][1:], linewidth=1, label=words(run))
-    axes[1].plot(150, 1.0, "kx", markersize=9, label="report, phi = 100, 500")
-    axes[1].axhline(0.080, color="0.5", linestyle=":", label="clean fiber, Kuwabara")
-    axes[2].axhline(4, color="k", linestyle="--", linewidth=0.8, label="report, phi = 500")
-    axes[2].plot(800, 20, "kx", markersize=9, label="report, phi = 2500")
-    for axis, label in zip(axes, ("particles on the fiber, 2 L of it", "total capture efficiency [%]",
-                                  "longest dendrite [um]")):
+    figure, axes = plt.subplots(1, 3, figsize=(13, 4.3))
+    for axis, key, label in zip(axes, ("captured", "TCE", "dendrite"), (
+            "particles on the fiber, 2 L of it", "total capture efficiency [%]", "longest dendrite [um]")):
+        lines = [axis.plot(run.t[1:], run.history[key][1:], linewidth=1, linestyle="-" if parts(run)[0] == 8 else ":")[0]
+                 for run in runs]
         axis.set(xlabel="t  [L/U]", ylabel=label)
-        axis.legend(fontsize=7)
+    axes[1].plot(150, 1.0, "kx", markersize=9, label="report, W = 8, phi = 100, 500")
+    axes[1].axhline(0.080, color="0.5", linestyle="--", label="clean fiber, Kuwabara, W = 8")
+    axes[2].axhline(4, color="k", linestyle="--", linewidth=0.8, label="report, W = 8, phi = 500")
+    axes[2].plot(800, 20, "kx", markersize=9, label="report, W = 8, phi = 2500")
+    for axis in axes[1:]:
+        axis.legend(fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), frameon=False)
+    figure.legend(lines, [words(run) for run in runs], loc="lower center", ncols=6, fontsize=9, frameon=False)
+    figure.subplots_adjust(left=0.06, right=0.99, bottom=0.2, wspace=0.2)
     figure.savefig(path, dpi=150)
 
 
