@@ -2,7 +2,7 @@
 
 A run is a set of files NAME.*: the log, the history that fix ave/time wrote, profiles and histograms. Numbers
 of the report are in report.csv of an example; ours, once kept, in its folder results: values.csv (case, quantity,
-ours, spread, t) and runs.csv (parameters, wall-clock time, memory). Needs Debian's python3-numpy and
+ours, spread, t) and runs.csv (what each run cost, its parameters). Needs Debian's python3-numpy and
 python3-matplotlib.
 """
 import argparse
@@ -16,12 +16,14 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
+import matplotlib.pyplot as plt
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parent.parent / "tools"))
 import apf_read
 from apf_read import stop
 
+COSTS = ["wall-clock [s]", "CPU [s]", "MB"]
 HEADS = ["case", "figure", "quantity", "report", "ours", "difference", "verdict", "the report says"]
 
 
@@ -51,12 +53,21 @@ class Run:
         step = self.history["step"]
         self.t = step / steps if steps else self.history["t"]
         self.unit = steps or (step[-1] - step[0]) / (self.t[-1] - self.t[0])    # t may be a mean over steps
-        self.log = path.with_suffix(".log")
+
+    def log(self):
+        """Text of the log; empty where there is none."""
+        path = self.path.with_suffix(".log")
+        return path.read_text(errors="replace") if path.is_file() else ""
 
     def blocks(self, suffix):
         """Times and rows of the blocks of another file of the run."""
         blocks = read_blocks(self.path.with_suffix(suffix))
         return np.array([step for step, _ in blocks]) / self.unit, [rows for _, rows in blocks]
+
+    def pictures(self, kind=""):
+        """Times and paths of the pictures NAME{kind}.STEP.png."""
+        paths = sorted(self.path.parent.glob(f"{self.path.stem}{kind}.{'[0-9]' * 9}.png"))
+        return [int(path.suffixes[-2][1:]) / self.unit for path in paths], paths
 
     def last(self, key, share=0.2):
         """Mean and standard deviation in time of a column over the last share of the run."""
@@ -65,19 +76,33 @@ class Run:
 
     def ending(self):
         """What the script printed at its end (pass: ..., FAIL: ...); empty as long as it runs."""
-        lines = self.log.read_text().split("\n") if self.log.is_file() else []
-        ends = [line for line in lines if line[:5] in ("pass:", "FAIL:")]
+        ends = [line for line in self.log().split("\n") if line[:5] in ("pass:", "FAIL:")]
         return ends[-1] if ends else ""
 
-    def cost(self, parameters):
-        """Row of runs.csv: all pieces of the run together."""
-        text = self.log.read_text() if self.log.is_file() else ""
-        loops = re.findall(r"^Loop time of (\S+) on (\d+) procs", text, re.M)
+    def cost(self, words):
+        """Row of runs.csv: `words`, the law and the timestep of the log, and what all pieces cost together.
+
+        Times are those of the steps which the log has a time for, scaled to all, if these are
+        more than half: a piece that was ended from outside has none.
+        """
+        text = self.log()
+        law = re.findall(r"^pair_coeff +1 1 ([^$\n]+)$", text, re.M)
+        step = re.findall(r"^timestep +([^$\n]+)$", text, re.M)
+        loops = np.array(re.findall(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps(?s:.*?)^ *(\S+)% CPU use",
+                                    text, re.M), dtype=float).reshape(-1, 4)
+        seconds, ranks, steps, share = loops[loops[:, 2] > 0].T
         memory = re.findall(r"^Maximum resident set size: (\S+)", text, re.M)
-        return {"run": self.path.stem, "parameters": parameters, "t": f"{self.t[-1]:g}",
-                "ranks": max((ranks for _, ranks in loops), default=""),
-                "seconds": f"{sum(float(seconds) for seconds, _ in loops):.0f}",
-                "MB": f"{max(map(float, memory)):.0f}" if memory else ""}
+        row = {"run": self.path.stem, "t": f"{self.t[-1]:g}", "ranks": "", **dict.fromkeys(COSTS, "")}
+        if len(steps):
+            scale = (self.history["step"][-1] - self.history["step"][0]) / steps.sum()
+            row["ranks"] = f"{ranks.max():.0f}"
+            if scale < 2:
+                used = seconds * ranks * share / 100
+                row.update({COSTS[0]: f"{seconds.sum() * scale:.0f}", COSTS[1]: f"{used.sum() * scale:.0f}"})
+        if memory:
+            row[COSTS[2]] = f"{max(map(float, memory)):.0f}"
+        settings = [words, *law[-1:], *(f"timestep {float(number):.4g}" for number in step[-1:])]
+        return {**row, "parameters": "; ".join(part.strip() for part in settings)}
 
 
 def read_runs(folder, pattern, make):
@@ -86,6 +111,19 @@ def read_runs(folder, pattern, make):
     if not runs:
         stop(folder / pattern, "missing; run the input script with -var dir first")
     return runs
+
+
+def draw_pictures(pictures, columns, path):
+    """Pictures of (title, file) in rows."""
+    rows = -(-len(pictures) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(3.1 * columns, 2.7 * rows), squeeze=False,
+                                layout="constrained")
+    for axis in axes.flat:
+        axis.axis("off")
+    for axis, (title, file) in zip(axes.flat, pictures):
+        axis.imshow(plt.imread(file))
+        axis.set_title(title, fontsize=9)
+    figure.savefig(path, dpi=110)
 
 
 # ---------------------------------------------------------------------- the report's numbers beside ours
@@ -222,9 +260,15 @@ def arguments(words, example):
     return args.dir, example if args.keep else args.dir, args.keep
 
 
-def conclude(example, report, values, runs, out, kept):
-    """Prints the table and what the runs cost; writes both to out/compare.txt, or keeps the numbers."""
-    text = text_of(compare(report, values)) + "\n" + text_of(runs)
+def values_by_run(runs, values_of):
+    """Our numbers by (run, quantity): those of values_of(run), each an Ours or a bare number."""
+    return {(run.name, key): value if isinstance(value, Ours) else Ours(value, t=run.t[-1])
+            for run in runs for key, value in values_of(run).items()}
+
+
+def conclude(example, values, runs, out, kept):
+    """Prints the table report / ours and what the runs cost; writes both to out/compare.txt, or keeps the numbers."""
+    text = text_of(compare(read_report(example / "report.csv"), values)) + "\n" + text_of(runs)
     print(text, end="")
     if kept:
         keep(example, values, runs)

@@ -76,11 +76,11 @@ def read_overlaps(run, si):
 
 def read_picture(run):
     """Time [L/U] and pixels of the last picture."""
-    paths = sorted(run.path.parent.glob(f"{run.path.stem}.{'[0-9]' * 9}.png"))
+    times, paths = run.pictures()
     if not paths:
         stop(run.path.with_suffix(".*.png"), "missing; in.channel writes them")
     try:
-        return int(paths[-1].suffixes[-2][1:]) / run.unit, plt.imread(paths[-1])
+        return times[-1], plt.imread(paths[-1])
     except (OSError, SyntaxError, ValueError) as error:
         stop(paths[-1], f"not a whole picture: {error}")
 
@@ -296,7 +296,7 @@ def main():
     draw_aggregates(runs, report, "13", ["wall_" + name for name in names], (2200, 200, 25),
                     out / "figure13.png")
     draw_overlaps(runs, si["lambda"], out / "overlaps.png")
-    conclude(HERE, report, values_of(report, runs), [run.cost("8000 particles") for run in runs], out, kept)
+    conclude(HERE, values_of(report, runs), [run.cost("8000 particles") for run in runs], out, kept)
 
 
 if __name__ == "__main__":

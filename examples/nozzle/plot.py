@@ -12,7 +12,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Ours, Run, arguments, conclude, read_report, read_runs
+from report import Ours, Run, arguments, conclude, draw_pictures, read_runs, values_by_run
 
 CHANNEL = 5e-4    # width of the channel [m], as in in.nozzle
 TRANSIT = 10 / 1.5    # from the exit to the outlet, 10 D at the largest velocity there [D/U]
@@ -23,6 +23,11 @@ def parts(run):
     length, phi, _, wall = run.name.split("-")[:4]
     ending = run.ending()
     return length, float(phi.removeprefix("phi")), wall == "yes", float("clogged" in ending) if ending else np.nan
+
+
+def kind(run):
+    """Words for what is not the usual: particles of a fiftieth of the exit."""
+    return ", d = D/50" if run.name.endswith("ratio50") else ""
 
 
 def size_along(run):
@@ -47,7 +52,7 @@ def draw_history(runs, path):
             length, phi, adhere, clogged = parts(run)
             if phi == 50 and adhere == wall:
                 axis.plot(run.t, run.history["mean_size"], linewidth=1,
-                          label=f"length {length}" + (", clogs" if clogged == 1 else ""))
+                          label=f"length {length}" + kind(run) + (", clogs" if clogged == 1 else ""))
         axis.set(xlabel="t  [D/U]", ylabel="mean size of aggregates",
                  title="walls adhere" if wall else "walls do not adhere")
         axis.axhline(2.4, color="k", linestyle="--", linewidth=0.8, label="report, walls do not adhere")
@@ -69,35 +74,16 @@ def draw_profiles(groups, path):
     figure.savefig(path, dpi=150)
 
 
-def close_ups(run):
-    """Times and paths of the close-ups of the exit."""
-    paths = sorted(run.path.parent.glob(f"{run.path.stem}.close.*.png"))
-    return [int(path.suffixes[-2][1:]) / run.unit for path in paths], paths
-
-
-def draw_pictures(pictures, columns, path):
-    """Pictures of (title, file) in rows."""
-    rows = -(-len(pictures) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(3.1 * columns, 2.7 * rows), squeeze=False,
-                                layout="constrained")
-    for axis in axes.flat:
-        axis.axis("off")
-    for axis, (title, file) in zip(axes.flat, pictures):
-        axis.imshow(plt.imread(file))
-        axis.set_title(title, fontsize=9)
-    figure.savefig(path, dpi=110)
-
-
 def draw_clogs(runs, out):
     """The end of each run that clogged (figure 21), and how a bridge forms (figure 22) in the one with most pictures."""
-    clogged = [run for run in runs if parts(run)[3] == 1 and close_ups(run)[1]]
+    clogged = sorted((run for run in runs if parts(run)[3] == 1 and run.pictures(".close")[1]), key=parts)
     if not clogged:
         return
-    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:.0f}", close_ups(run)[1][-1])
+    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:.0f}", run.pictures(".close")[1][-1])
             for run in clogged]
     draw_pictures(ends, min(4, len(ends)), out / "figure21.png")
-    run = max(clogged, key=lambda run: len(close_ups(run)[1]) / run.t[-1])
-    times, paths = close_ups(run)
+    run = max(clogged, key=lambda run: len(run.pictures(".close")[1]) / run.t[-1])
+    times, paths = run.pictures(".close")
     left = run.history["left"]
     closed = run.t[left >= left[-1] - 0.5][0] - TRANSIT + 1
     last = next(k for k, t in enumerate(times) if t >= closed or t == times[-1])
@@ -112,7 +98,7 @@ def main():
     runs = read_runs(folder, "nozzle-*.aggregates", lambda path: Run(path, "nozzle-"))
     draw_history(runs, out / "figure16.png")
     lengths = [(f"length {length}", [run for run in runs if parts(run)[:2] == (length, 50)],
-                lambda run: "walls adhere" if parts(run)[2] else "walls do not")
+                lambda run: ("walls adhere" if parts(run)[2] else "walls do not adhere") + kind(run))
                for length in ("0", "0.5", "1")]
     lengths = [group for group in lengths if group[1]]
     if lengths:
@@ -122,10 +108,9 @@ def main():
         draw_profiles([("length 1, walls adhere", phis, lambda run: f"phi = {parts(run)[1]:g}")],
                       out / "figure20.png")
     draw_clogs(runs, out)
-    values = {(run.name, key): value for run in runs for key, value in values_of(run).items()}
     costs = [run.cost(f"{run.history['entered'][-1]:.0f} entered, {run.history['left'][-1]:.0f} left")
              for run in runs]
-    conclude(HERE, read_report(HERE / "report.csv"), values, costs, out, kept)
+    conclude(HERE, values_by_run(runs, values_of), costs, out, kept)
 
 
 if __name__ == "__main__":

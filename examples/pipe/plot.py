@@ -12,8 +12,9 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Ours, Run, arguments, conclude, read_report, read_runs
+from report import Run, arguments, conclude, read_runs, values_by_run
 
+VARIANTS = {"plain": "drag alone", "e09": "e = 0.9", "soft": "lambda = 1.76e4"}    # names -phiPHI-VARIANT
 STEP, VOLUME = 0.00263, np.pi / 6 * 0.04**3    # particle step, volume of a particle; as in in.pipe
 
 
@@ -23,6 +24,8 @@ class Pipe(Run):
     def __init__(self, path):
         super().__init__(path, "pipe-", 1 / STEP)
         self.adhesive = not self.name.startswith("phi0")
+        phi, *variant = self.name.split("-")
+        self.words = ", ".join([f"phi = {phi[3:]}", *(VARIANTS.get(word, word) for word in variant)])
         self.times, blocks = self.blocks(".profiles")
         self.r = blocks[0][:, 1]
         self.c = np.array([rows[:, 4] * VOLUME for rows in blocks])
@@ -64,7 +67,7 @@ def draw_profiles(runs, early, path, marks):
     for k, run in enumerate(runs):
         for t, line in ((early, "--"), (run.times[-1], "-")):
             c, v = run.profile(t)
-            axes[0].plot(run.r, c, line, color=f"C{k}", label=f"{run.name}, t = {t:.0f}")
+            axes[0].plot(run.r, c, line, color=f"C{k}", label=f"{run.words}, t = {t:.0f}")
             axes[1].plot(run.r, v, line, color=f"C{k}")
     for r, c in marks:
         axes[0].plot(r, c, "kx", markersize=9)
@@ -84,7 +87,7 @@ def draw_history(runs, path, said):
         n, count = run.history["in_aggregates"], run.history["aggregates"]
         size = np.divide(n, count, out=np.full_like(n, np.nan), where=count > 0)
         for axis, values in zip(axes, (n, count, size)):
-            axis.plot(run.t, values, linewidth=1, label=run.name)
+            axis.plot(run.t, values, linewidth=1, label=run.words)
     for axis, value, label in zip(axes, said, ("particles in aggregates", "aggregates", "mean size")):
         axis.set(xlabel="t  [L/U]", ylabel=label)
         if value:
@@ -97,7 +100,7 @@ def draw_sizes(runs, path):
     """Particles in aggregates of each size at the end."""
     figure, axis = plt.subplots(figsize=(6, 3.6), layout="constrained")
     for run in runs:
-        axis.step(run.size, run.in_size, where="mid", label=run.name)
+        axis.step(run.size, run.in_size, where="mid", label=run.words)
     axis.axvline(60, color="k", linestyle="--", linewidth=0.8, label="report's largest")
     axis.set(xlabel="particles in the aggregate", ylabel="particles in aggregates of this size",
              xlim=(1.5, 100), yscale="log")
@@ -117,8 +120,7 @@ def main():
         draw_history(adhesive, out / "figure25.png", (0.8 * 5080, 700, 5.5))
         draw_sizes(adhesive, out / "figure26.png")
         draw_profiles(adhesive, 2, out / "figure27.png", [])
-    values = {(run.name, key): Ours(value, t=run.t[-1]) for run in runs for key, value in values_of(run).items()}
-    conclude(HERE, read_report(HERE / "report.csv"), values, [run.cost("5080 particles") for run in runs], out, kept)
+    conclude(HERE, values_by_run(runs, values_of), [run.cost("5080 particles") for run in runs], out, kept)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws what has settled where, from what in.radiator wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes deposit.png and compare.txt to DIR, from all radiator-*.captured there.
+Writes deposit.png, figure40.png (a slice before the bar) and compare.txt to DIR, from all radiator-*.captured there.
 """
 import sys
 from pathlib import Path
@@ -11,11 +11,17 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Ours, Run, arguments, conclude, read_report, read_runs
+from report import Run, arguments, conclude, draw_pictures, read_runs, values_by_run
 
 ZONES = {"front": "front of the bar", "edges": "edges of the fins", "channels": "walls of the channels"}
 # areas in mm^2: the front with its round corners; the fins behind their round edges, 1.8 mm long, both faces
 AREA = {"front": 1.2 * (0.6 + np.pi * 0.2), "channels": 2 * 2 * 1.0 * 1.8}
+
+
+def words(run):
+    """The run in words."""
+    phi, _, wet = run.name.split("-")[:3]
+    return f"phi = {phi[3:]}, {'moist' if wet == 'yes' else 'dry'}"
 
 
 def values_of(run):
@@ -33,9 +39,9 @@ def draw(runs, path):
     figure, axes = plt.subplots(1, len(runs), figsize=(5.5 * len(runs), 3.8), layout="constrained",
                                 squeeze=False, sharey=True)
     for axis, run in zip(axes[0], runs):
-        for zone, words in ZONES.items():
-            axis.plot(run.t, run.history[zone], linewidth=1, label=words)
-        axis.set(xlabel="t  [L/U]", ylabel="deposited particles", title=run.name)
+        for zone, label in ZONES.items():
+            axis.plot(run.t, run.history[zone], linewidth=1, label=label)
+        axis.set(xlabel="t  [L/U]", ylabel="deposited particles", title=words(run))
         axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
@@ -45,8 +51,11 @@ def main():
     folder, out, kept = arguments(__doc__, HERE)
     runs = read_runs(folder, "radiator-*.captured", lambda path: Run(path, "radiator-"))
     draw(runs, out / "deposit.png")
-    values = {(run.name, key): Ours(value, t=run.t[-1]) for run in runs for key, value in values_of(run).items()}
-    conclude(HERE, read_report(HERE / "report.csv"), values,
+    ends = [(f"{words(run)}, t = {times[-1]:g} L/U", paths[-1]) for run in runs
+            for times, paths in [run.pictures(".slice")] if paths]
+    if ends:
+        draw_pictures(ends, 2, out / "figure40.png")
+    conclude(HERE, values_by_run(runs, values_of),
              [run.cost(f"{run.history['entered'][-1]:.0f} entered") for run in runs], out, kept)
 
 

@@ -1,0 +1,64 @@
+"""examples/report.py: what a run cost, and the verdict on a number, from files and numbers that are known."""
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parent.parent.parent / "examples"))
+sys.dont_write_bytecode = True
+try:
+    import report
+except ImportError as missing:
+    print("skipped:", missing)
+    sys.exit(77)
+
+HEAD = "pair_coeff 1 1 ${law}\npair_coeff 1 1 jkr 1e9 0.3 0.1\ntimestep ${dt}\ntimestep 2e-06\n"
+PIECE = ("Loop time of {} on 2 procs for {} steps with 5 atoms\n\nPerformance: 1 tau/day\n{}% CPU use with 2 MPI tasks\n"
+         "Maximum resident set size: {} Mbyte\n")
+NAN = float("nan")
+
+
+class Cost(unittest.TestCase):
+    """A run of 100 steps, of which the log knows some."""
+
+    def cost(self, log):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "case-a.history"
+            path.write_text("# title\n# step t[s] n\n0 0 1\n50 5 2\n100 10 3\n")
+            path.with_suffix(".log").write_text(log)
+            return report.Run(path, "case-").cost("5 particles")
+
+    def test_all_pieces_of_a_run_on_all_ranks(self):
+        row = self.cost(HEAD + PIECE.format(10, 40, 50, 7) + "Loop time of 1e-6 on 2 procs for 0 steps with 5 atoms\n\n"
+                        "259% CPU use with 2 MPI tasks\n" + PIECE.format(30, 60, 100, 9))
+        self.assertEqual(row, {"run": "case-a", "t": "10", "ranks": "2", "wall-clock [s]": "40", "CPU [s]": "70", "MB": "9",
+                               "parameters": "5 particles; jkr 1e9 0.3 0.1; timestep 2e-06"})
+
+    def test_pieces_without_a_time_are_scaled_in_or_left_out(self):
+        row = self.cost(HEAD + PIECE.format(30, 60, 100, 9))
+        self.assertEqual((row["wall-clock [s]"], row["CPU [s]"]), ("50", "100"))
+        row = self.cost(HEAD + PIECE.format(10, 40, 50, 7))
+        self.assertEqual((row["wall-clock [s]"], row["CPU [s]"], row["MB"]), ("", "", "7"))
+
+    def test_log_that_is_no_text_costs_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "case-a.history"
+            path.write_text("# title\n# step t[s] n\n0 0 1\n50 5 2\n")
+            path.with_suffix(".log").write_bytes(b"ERROR: \xd4\xff\n")
+            self.assertEqual(report.Run(path, "case-").cost("")["MB"], "")
+
+
+class Verdict(unittest.TestCase):
+    """A number beside the report's 2 .. 3, which it gives for t > 50."""
+
+    def test_words(self):
+        row = {"low": 2.0, "value": NAN, "high": 3.0, "for_t": "> 50"}
+        for value, spread, t, words in ((2.0, NAN, 60, "agrees"), (3.0, NAN, 60, "agrees"), (3.01, NAN, 60, "differs"),
+                                        (3.01, 0.02, 60, "agrees within our spread"), (1.9, 0.05, 60, "differs"),
+                                        (NAN, NAN, 60, "not reached"), (2.5, NAN, 49, "not reached: run ended at t = 49")):
+            self.assertEqual(report.verdict(row, report.Ours(value, spread, t)), words)
+        self.assertEqual(report.verdict({**row, "low": NAN, "high": NAN}, report.Ours(1, t=60)), "no number")
+
+
+if __name__ == "__main__":
+    unittest.main()
