@@ -154,10 +154,9 @@ TEST(RanksBridge, none_is_lost_with_a_skin_thinner_than_its_length)
             "aggregate/contact\ncompute l all pair/local p12 p13\ncompute n all reduce sum c_l[1] "
             "c_l[2] inputs local\ncompute s all reduce sum c_b[5]\n"
             "thermo_style custom step c_n[1] c_n[2] c_s\nrun 0 post no\n"
-            "group left id 1\ngroup right id 2\nfix still all freeze\n"
-            "fix l left move linear " +
-            digits(4.0 * pulled) + " 0 0\nfix r right move linear " + digits(5.0 * pulled) +
-            " 0 0\ntimestep " + digits(step));
+            "group left id 1\ngroup right id 2\nfix still all freeze\ntimestep " +
+            digits(step) + "\nfix l left move linear " + digits(4.0 * pulled) +
+            " 0 0\nfix r right move linear " + digits(5.0 * pulled) + " 0 0");
     double last = 0.0, gap = 0.0;
     int builds = 0, seen = 0;
     for (int n = 0; n < 60; n++) {
@@ -266,7 +265,7 @@ TEST(RanksBridge, liquid_is_conserved_in_shear_and_through_a_restart_on_fewer_ra
                {"inventory 1.0 form film", -1.0},
                {"inventory 0.3", 0.01},
                {"inventory 1.0 origin form film", 0.002},
-               {"inventory 0.3", 0.01, 22, 60}};    // 10,648 particles
+               {"inventory 0.3", 0.01, 22, 120}};    // 10,648 particles
   for (const auto &[split, thickness, side, steps] : cases) {
     const std::string film = thickness < 0.0 ? "" : " film " + digits(thickness);
     const double area = 2.0 * std::pow(side * std::cbrt(1.0 / 0.7), 2);
