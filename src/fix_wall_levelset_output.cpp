@@ -27,19 +27,20 @@ double FixWallLevelset::compute_scalar()
     for (const auto &p : parts)
       energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
   }
-  if (wet) energy += bridges.energy();
+  if (wet) energy += bridges.loads().energy;
   double all;
   MPI_Allreduce(&energy, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }
 
 // force 3, torque about the origin 3, contacts, contacts begun, contacts ended, bridges, liquid in
-// them, liquid left on the wall
+// them, liquid left on the wall; of bridges: capillary force 3, viscous force 3, energy
 double FixWallLevelset::compute_vector(int n)
 {
+  if (n >= n_loads) return bridge_load(n - n_loads);
   if (!loads_summed) {
     before_storing();
-    double mine[12];
+    double mine[n_loads];
     const auto loads = ledger.total_load();
     std::copy(loads.begin(), loads.end(), mine);
     mine[6] = contacts.size();
@@ -48,10 +49,21 @@ double FixWallLevelset::compute_vector(int n)
     mine[9] = bridges.size();
     mine[10] = bridges.liquid_held();
     mine[11] = ledger.total_liquid() + bridges.liquid_from_wall();
-    MPI_Allreduce(mine, all_loads, 12, MPI_DOUBLE, MPI_SUM, world);
+    MPI_Allreduce(mine, all_loads, n_loads, MPI_DOUBLE, MPI_SUM, world);
     loads_summed = true;
   }
   return all_loads[n];
+}
+
+double FixWallLevelset::bridge_load(int n)
+{
+  if (wet && !bridge_loads_summed) {
+    const auto mine = bridges.loads();
+    static_assert(sizeof(mine) == n_bridge_loads * sizeof(double));
+    MPI_Allreduce(&mine, all_bridge_loads, n_bridge_loads, MPI_DOUBLE, MPI_SUM, world);
+    bridge_loads_summed = true;
+  }
+  return all_bridge_loads[n];
 }
 
 // rows: zones of the wall, and the whole of it

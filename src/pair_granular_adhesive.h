@@ -51,7 +51,7 @@ class PairGranularAdhesive : public Pair {
   bool planar() const { return choice.planar; }
   void list_was_built() { rebuild = true; }
   apf::StiffestMode stiffest_possible() const;    // of any two particles
-  const apf::ContactModel &model_of_types(int i, int j) const { return coefficients[i][j].model; }
+  const ContactCoeff &coeff_of_types(int i, int j) const { return coefficients[i][j]; }
 
   // sub-steps of a particle step, see FixContacts
   void find_fastest(apf::LookAhead &);
@@ -72,6 +72,7 @@ class PairGranularAdhesive : public Pair {
   // for its bridges; of two atoms, or of a candidate
   const ContactCoeff &coeff_of(int i, int j) const;
   apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
+  apf::ContactBodies bodies_of_bridge(int i, int j, double zi, double zj) const;
   int law_of(int i, int j) const;    // number of the coefficient
   bool is_closed(int candidate) const { return candidates.closed[candidate]; }
 
