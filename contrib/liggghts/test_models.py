@@ -318,6 +318,25 @@ class Impact(unittest.TestCase):
             self.assertAlmostEqual(self.restitution(share * V_s), math.sqrt(1 - share**-2),
                                    delta=0.03 if share < 1.1 else 0.005)
 
+    def test_restitution_with_adhesion_and_damping(self):
+        """Beside the equation of motion of the damped neck, integrated here."""
+        speed, e = 2 * math.sqrt(2 * 0.935503 * PAIR.F_C * PAIR.delta_C / (MASS / 2)), 0.8
+        beta = -math.log(e) / math.hypot(math.pi, math.log(e))
+        h = np.linspace(6 ** (-2 / 3), 2.5, 100001)    # contact radius / a0
+        overlaps = 6 ** (1 / 3) * (2 * h**2 - 4 / 3 * np.sqrt(h)) * PAIR.delta_C
+
+        def acceleration(overlap, v):
+            h_now = float(np.interp(overlap, overlaps, h))
+            eta = math.sqrt(5) * beta * math.sqrt(MASS / 2 * 4 / 3 * E_EFF * PAIR.a0 * h_now)
+            return -(4 * PAIR.F_C * (h_now**3 - h_now**1.5) + eta * v) / (MASS / 2)
+
+        overlap, v, step = 0.0, speed, step_of(PAIR, MASS / 2) / 100
+        while overlap > -PAIR.delta_C:
+            middle = v + 0.5 * step * acceleration(overlap, v)
+            v += step * acceleration(overlap + 0.5 * step * v, middle)
+            overlap += step * middle
+        self.assertAlmostEqual(self.restitution(speed, restitution=e), -v / speed, delta=0.005)
+
     def test_restitution_without_adhesion(self):
         for e in (0.9, 0.5, 0.2):
             self.assertAlmostEqual(self.restitution(1.0, restitution=e, adhesion=0.0) / e, 1.0,
