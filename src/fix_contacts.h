@@ -4,6 +4,7 @@
 #include "fix.h"
 
 #include "contact/contact_law.h"
+#include "contact/islands.h"
 #include "contact/jump.h"
 #include "contact_store.h"
 #include "timestep/look_ahead.h"
@@ -55,6 +56,8 @@ class FixContacts : public Fix {
   // forces of all contacts onto the rows of the particles, which stand half a sub-step before the
   // positions; contacts are made and ended
   virtual void sub_step(const apf::ContactTimes &) = 0;
+  // bodies whose contacts cannot take their sub-steps apart from the others
+  virtual void pin(apf::Islands &) const {}
   // bridges formed since liquid was settled last get no more of it than there was
   virtual void settle_bridges() {}
   virtual double contacts_here() const = 0;      // of this rank; shared ones count by halves

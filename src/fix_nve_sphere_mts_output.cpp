@@ -94,5 +94,5 @@ void FixNVESphereMTS::restart(char *buf)
 double FixNVESphereMTS::memory_usage()
 {
   return activity.capacity() + slow_before.capacity() * sizeof(slow_before[0]) +
-      foresight.memory_usage();
+      foresight.memory_usage() + islands.memory_usage();
 }

@@ -45,6 +45,7 @@ class FixWallLevelset : public FixContacts {
   void find_approaching(apf::LookAhead &) override;
   bool find_near(apf::LookAhead &) override;
   void sub_step(const apf::ContactTimes &) override;
+  void pin(apf::Islands &) const override;
   double distance(const double *x) const;    // > 0 in the fluid; of the nearest surface
   double contacts_here() const override { return contacts.size(); }
   void find_stiffest(apf::Stiffest &) override;

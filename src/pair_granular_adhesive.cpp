@@ -192,6 +192,24 @@ void PairGranularAdhesive::sub_step(const apf::ContactTimes &times)
   if (ruptured) bridges.remove_ruptured(true);
 }
 
+void PairGranularAdhesive::join_bodies(apf::Islands &islands) const
+{
+  for (int k = 0; k < contacts.size(); k++) islands.join(contacts.i[k], contacts.j[k]);
+  for (const int k : candidates.near) islands.join(candidates.i[k], candidates.j[k]);
+}
+
+void PairGranularAdhesive::part(const apf::Islands &islands)
+{
+  tiles.part(
+      contacts, candidates.near, islands.size(),
+      [&](int k) {
+        return islands.tile_of(contacts.i[k]);
+      },
+      [&](int n) {
+        return islands.tile_of(candidates.i[candidates.near[n]]);
+      });
+}
+
 /* ----------------------------------------------------------------------
    candidates = pairs of a new neighbour list; closed contacts are found again by atom ID
 ------------------------------------------------------------------------- */
