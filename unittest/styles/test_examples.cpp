@@ -29,6 +29,18 @@ std::string channel(const std::string &name, const std::vector<std::vector<const
   return last;
 }
 
+// in.study of an example, from its folder
+void study(const std::string &name, const std::vector<std::string> &words)
+{
+  const auto here = std::filesystem::current_path();
+  std::filesystem::current_path(APF_EXAMPLES "/" + name);
+  {
+    Simulation sim(words);
+    sim.run("include in.study\nlog none\n");
+  }
+  std::filesystem::current_path(here);
+}
+
 std::string verdict(const std::string &name, const std::string &script,
                     std::vector<std::string> words)
 {
@@ -93,18 +105,40 @@ TEST(Examples, channel_goes_on_from_its_restart_file)
 
 TEST(Examples, study_of_the_nozzle_walks_through_its_parameters)
 {
-  const auto here = std::filesystem::current_path();
   const auto out = scratch_file("nozzle_study");
   std::filesystem::create_directory(out);
-  std::filesystem::current_path(APF_EXAMPLES "/nozzle");
-  {
-    Simulation sim({"-var", "dir", out, "-var", "t", "1", "-var", "phis", "25", "50"});
-    sim.run("include in.study\nlog none\n");
-  }
-  std::filesystem::current_path(here);
-  for (const char *phi : {"25", "50"})
-    EXPECT_TRUE(std::filesystem::exists(out + "/nozzle-0.5-phi" + phi + "-wall-yes.restart.end"))
-        << phi;
+  for (const std::string length : {"0.5", "0.50"})    // the same flow by two names
+    for (const std::string kind : {".vtkhdf", "-walls.vtkhdf"})
+      std::filesystem::create_symlink(APF_EXAMPLES "/nozzle/nozzle-0.5" + kind,
+                                      out + "/nozzle-" + length + kind);
+  study("nozzle",
+        {"-var", "dir", out, "-var", "flow", out, "-var", "t", "0.1", "-var", "phis", "25", "50",
+         "-var", "lengths", "0.5 0.50"});
+  for (const char *length : {"0.5", "0.50"})
+    for (const char *phi : {"25", "50"})
+      EXPECT_TRUE(std::filesystem::exists(out + "/nozzle-" + length + "-phi" + phi +
+                                          "-wall-yes.restart.end"))
+          << length << " " << phi;
+  std::filesystem::remove_all(out);
+}
+
+TEST(Examples, study_of_the_channel_walks_through_its_parameters)
+{
+  const auto out = scratch_file("channel_study");
+  study("channel",
+        {"-var", "folder", out, "-var", "t", "0.005", "-var", "Re", "10", "20", "-var", "lambdas",
+         "1e3 1e4", "-var", "phis", "25 50"});
+  for (const std::string Re : {"10", "20"})
+    for (const std::string lambda : {"1e3", "1e4"})
+      for (const std::string phi : {"25", "50"}) {
+        const auto stem = out + "/Re" + Re + "-lambda" + lambda + "/channel-phi" + phi;
+        EXPECT_TRUE(std::filesystem::exists(stem + ".restart.end")) << stem;
+        std::ifstream log(stem + ".log");
+        const std::string text((std::istreambuf_iterator<char>(log)), {});
+        // rho U L / Re, and 2 (1 - nu^2) lambda rho_p U^2
+        EXPECT_NE(text.find(Re == "10" ? "viscosity 6e-05\n" : "viscosity 3e-05\n"), text.npos);
+        EXPECT_NE(text.find(lambda == "1e3" ? "jkr 1183000 0.3" : "jkr 11830000 0.3"), text.npos);
+      }
   std::filesystem::remove_all(out);
 }
 
