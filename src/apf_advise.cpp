@@ -160,7 +160,7 @@ void APFAdvise::advise_contacts(PairGranularAdhesive *pair)
       const double inv_m = 1.0 / a.mass + 1.0 / b.mass, inv_I = 1.0 / a.moment() + 1.0 / b.moment();
       advise_contact(
           fmt::format("{} {} d {:.4g} {:.4g}", a.type, b.type, 2.0 * a.radius, 2.0 * b.radius),
-          pair->model_of_types(a.type, b.type),
+          pair->coeff_of_types(a.type, b.type),
           apf::ContactBodies::pair(a.radius, b.radius, 1.0 / inv_m, 1.0 / inv_I),
           a.radius < b.radius ? a : b);
     }
@@ -174,17 +174,18 @@ void APFAdvise::advise_contacts(PairGranularAdhesive *pair)
         if (bodies.R == last) continue;
         last = bodies.R;
         advise_contact(fmt::format("{} {} d {:.4g}", size.type, wall->id, 2.0 * size.radius),
-                       wall->contact_model(), bodies, size);
+                       wall->contact_coeff(), bodies, size);
       }
     }
   }
 }
 
-void APFAdvise::advise_contact(const std::string &name, const apf::ContactModel &model,
+void APFAdvise::advise_contact(const std::string &name, const ContactCoeff &coeff,
                                const apf::ContactBodies &bodies, const Size &smaller)
 {
-  const auto contact = apf::ContactScales::make(model, bodies, scene.U);
+  const auto &model = coeff.model;
   const double r = smaller.radius, rho = smaller.density();
+  const auto contact = apf::ContactScales::make({coeff.bridge, model}, bodies, r, scene.U);
   const double E = model.surface.E * model.stiffness_scale;
   say(fmt::format("  {:<26} {:>10.4g} {:>10.4g} {:>9.4g} {:>9.4g} {:>10.4g} {:>10.4g} {:>9.4g} "
                   "{:>9.4g} {:>10.4g} {:>10} {:>10.4g} {:>10.4g}",

@@ -11,6 +11,7 @@ CommandStyle(apf_advise,APFAdvise);
 
 #include "command.h"
 
+#include "contact_keywords.h"
 #include "timestep/scales.h"
 
 #include <string>
@@ -48,8 +49,8 @@ class APFAdvise : public Command {
   Fluid fluid_at_particles(class FixFlowField *) const;
   void find_length();
   void advise_contacts(class PairGranularAdhesive *);
-  void advise_contact(const std::string &name, const apf::ContactModel &,
-                      const apf::ContactBodies &, const Size &smaller);
+  void advise_contact(const std::string &name, const ContactCoeff &, const apf::ContactBodies &,
+                      const Size &smaller);
   void advise_steps();
   void advise_fluid(class FixFlowField *);
   void advise_ranges(class FixFlowField *, const Fluid &, double d);

@@ -67,11 +67,14 @@ class ComputeAggregateContact : public Compute {
   Totals totals;
   enum { LABEL, CONTACTS } reverse;    // what reverse_comm brings to the owner of an atom
 
-  void find_aggregates();
+  // in compute_aggregate_contact_gather.cpp
+  static bool keeps_contacts(class Pair *);
   bool atoms_have_changed() const;
-  void start_labels();
   void gather_contacts();
   void gather_wall_contacts();
+
+  void find_aggregates();
+  void start_labels();
   void connect_contacts();
   void spread_labels();
   void measure_aggregates();

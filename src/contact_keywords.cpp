@@ -15,6 +15,7 @@ namespace {
 
 constexpr double infinity = INFINITY;
 constexpr double largest = 1.0e30;    // products of a few numbers are finite yet
+constexpr double rounding = 1.0e-12;
 
 // Reads words one after another; errors name command, keyword, value and range.
 class Words {
@@ -170,7 +171,16 @@ double parse_wet_gamma(Words &words)
     words.refuse(fmt::format("wet_gamma A_f = {} lies between A_i = {} and A_j = {}: surfaces that "
                              "repel each other in the liquid cannot be modelled",
                              Af, Ai, Aj));
-  return share;
+  const double of_wetting = apf::largest_wetting_hamaker(Ai, Aj);
+  if (Af > of_wetting * (1.0 + rounding))
+    words.refuse(fmt::format("wet_gamma A_f must be in [0, (sqrt(A_i) + sqrt(A_j))^2 = {:.6g}], "
+                             "got {}: a liquid of larger A_f does not wet the bodies",
+                             of_wetting, Af));
+  if (share > 1.0 + rounding)
+    words.refuse(fmt::format("wet_gamma x_ratio must be >= {:.6g}, got {}: liquid would raise the "
+                             "surface energy",
+                             x * std::sqrt(share), x));
+  return std::min(share, 1.0);
 }
 
 // true if the word was a keyword of liquid bridges
@@ -312,7 +322,9 @@ std::string ContactCoeff::words() const
   if (bridge.capillary == apf::Capillary::willett) text += " capillary willett";
   if (bridge.tangential) text += " tangential yes";
   // Hamaker constants that come to the same
-  if (bridge.wet_share != 1.0)
+  if (bridge.wet_share == 0.0)
+    text += " wet_gamma 1 1 1 1";
+  else if (bridge.wet_share != 1.0)
     text += fmt::format(" wet_gamma {:.16g} 1 1 0", std::sqrt(1.0 / bridge.wet_share));
   if (bridge.inventory())
     text += fmt::format(" inventory {:.16g} {}", bridge.intake,

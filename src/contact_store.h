@@ -97,6 +97,16 @@ class ContactStore {
     return static_cast<int>(buf - start);
   }
 
+  // number of doubles that unpack will read
+  static double packed_size(const double *buf)
+  {
+    const double wet = *buf >= with_liquid, what = *buf - wet * with_liquid,
+                 bridges = std::floor(what / per_bridge);
+    return 2 + wet +
+        (what - bridges * per_bridge) * PartnerRecords<apf::ContactHistory>::record_size +
+        bridges * PartnerRecords<apf::BridgeMemory>::record_size;
+  }
+
   // appends to what atom i has; returns the number of doubles read
   int unpack(int i, const double *buf)
   {

@@ -43,6 +43,7 @@ class FixContactHistory : public FixContacts {
   using FixContacts::step_is_given;
 
   void serve(class PairGranularAdhesive *style) { pair = style; }
+  class PairGranularAdhesive &served() const { return *pair; }
 
   // history of atom i's contact with the atom of that ID at the last rebuild; nullptr if none
   const apf::ContactHistory *find(int i, tagint partner) const

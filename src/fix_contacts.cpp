@@ -7,6 +7,7 @@
 #include "fix_nve_sphere_mts.h"
 #include "modify.h"
 #include "respa.h"
+#include "restart_state.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -157,21 +158,15 @@ void FixContacts::write_restart(FILE *fp)
   if (update->whichflag) post_run();    // within a run; else the end of the last run has done it
   auto state = global_state();
   state.insert(state.begin(), taken.behind);
-  if (comm->me != 0) return;
-  const int bytes = static_cast<int>(state.size() * sizeof(double));
-  fwrite(&bytes, sizeof(int), 1, fp);
-  fwrite(state.data(), sizeof(double), state.size(), fp);
-  // LAMMPS does not look whether its files can be written
-  if (fflush(fp) != 0)
-    error->one(FLERR, Error::NOLASTLINE, "{} {}: the restart file cannot be written: {}", style, id,
-               utils::getsyserror());
+  if (comm->me == 0) RestartState::write(lmp, this, state, fp);
 }
 
 void FixContacts::restart(char *buf)
 {
-  const auto *state = reinterpret_cast<const double *>(buf);
-  taken.behind = state[0];
-  set_global_state(state + 1);
+  RestartState state(lmp, this, buf);
+  taken.behind = state.next();
+  set_global_state(state);
+  state.end();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -223,6 +218,13 @@ void FixContacts::unpack_restart(int i, int nth)
   double *extra = atom->extra[i];
   int m = 0;
   for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
+  const double size =
+      1 + UsedVelocity::size + ContactStore::packed_size(extra + m + 1 + UsedVelocity::size);
+  if (extra[m] != size)
+    error->one(FLERR, Error::NOLASTLINE,
+               "Fix {} {}: its part of the restart file is damaged: atom {} has {:.0f} numbers, "
+               "{:.0f} are expected",
+               style, id, atom->tag[i], extra[m], size);
   unpack_exchange(i, extra + m + 1);
 }
 

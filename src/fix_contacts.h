@@ -4,6 +4,7 @@
 #include "fix.h"
 
 #include "contact/contact_law.h"
+#include "contact/islands.h"
 #include "contact/jump.h"
 #include "contact_store.h"
 #include "timestep/look_ahead.h"
@@ -55,6 +56,8 @@ class FixContacts : public Fix {
   // forces of all contacts onto the rows of the particles, which stand half a sub-step before the
   // positions; contacts are made and ended
   virtual void sub_step(const apf::ContactTimes &) = 0;
+  // bodies whose contacts cannot take their sub-steps apart from the others
+  virtual void pin(apf::Islands &) const {}
   // bridges formed since liquid was settled last get no more of it than there was
   virtual void settle_bridges() {}
   virtual double contacts_here() const = 0;      // of this rank; shared ones count by halves
@@ -88,7 +91,7 @@ class FixContacts : public Fix {
 
   // numbers of the fix itself in restart files; called on all ranks
   virtual std::vector<double> global_state() const { return {}; }
-  virtual void set_global_state(const double *) {}
+  virtual void set_global_state(class RestartState &) {}
 
   // Takes the velocities for the forces of this step; returns the times that the kernel needs.
   // Collective at the first step of a run.

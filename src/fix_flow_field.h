@@ -77,6 +77,7 @@ class FixFlowField : public Fix {
   double evaluated_at;    // and their time; not a number if there are none yet
   int every = 1;          // time steps of a fluid step
 
+  // fix_flow_field_input.cpp
   int parse_kind(int narg, char **arg);
   int parse_channel(char **arg);
   int parse_pipe(char **arg);
@@ -86,6 +87,7 @@ class FixFlowField : public Fix {
   int parse_property(int iarg, int narg, char **arg);
   int axis(const char *word, int iarg);
   Speed parse_speed(const char *word);
+
   double time() const;
   void evaluate();
   void evaluate_variables();

@@ -109,6 +109,8 @@ class FixFlowForce : public FixPerGrid {
   void grow_output();
   double step() const;
   void for_blocks(const std::function<void()> &act);
+
+  // fix_flow_force_block.cpp
   int gather(int first, double whole, double sub);
   int choose(int first);
   void scatter();

@@ -14,6 +14,8 @@
 #include "update.h"
 
 #include "flow/di_felice.h"
+#include "flow/schiller_naumann.h"
+#include "flow/stokes.h"
 
 #include <cstring>
 
@@ -304,7 +306,9 @@ void FixFlowForce::check_other_fixes()
 void FixFlowForce::warn_of_ranges()
 {
   if (warned) return;
-  const double limit = model.drag == apf::FluidModel::STOKES ? 1.0 : 800.0;
+  const bool schiller = model.drag == apf::FluidModel::SCHILLER;
+  const double limit =    // difelice multiplies Stokes's drag
+      schiller ? apf::SchillerNaumannDrag::largest_reynolds : apf::StokesDrag::largest_reynolds;
   bigint mine[3] = {}, all[3];    // beyond the range of the drag, of the lift; particles
   for_blocks([&] {
     const auto &b = *block;
@@ -318,7 +322,7 @@ void FixFlowForce::warn_of_ranges()
       }
       const double d = b.forces.diameter[l], Re = std::sqrt(slip2) * d * per_nu;
       const double Re_G = std::sqrt(om2) * d * d * per_nu;
-      mine[0] += !model.hindered() && Re > limit;
+      mine[0] += Re > limit;
       mine[1] += Re_G > 0.0 && (Re > 1.0 || Re_G > 1.0 || Re > std::sqrt(Re_G));
       mine[2]++;
     }
@@ -329,12 +333,14 @@ void FixFlowForce::warn_of_ranges()
   if (comm->me != 0) return;
   std::string text;
   if (all[0])
-    text += fmt::format(" drag {} is meant for Re <= {}, {} particles have more;",
-                        limit > 1.0 ? "schiller" : "stokes", limit, all[0]);
+    text += fmt::format("drag {} is meant for Re <= {}, exceeded by {} of {} particles",
+                        schiller               ? "schiller"
+                            : model.hindered() ? "difelice"
+                                               : "stokes",
+                        limit, all[0], all[2]);
   if (all[1])
-    text += fmt::format(" lift saffman is meant for Re <= 1, Re_G <= 1, Re <= sqrt(Re_G), {} "
-                        "particles are beyond;",
-                        all[1]);
-  text.back() = ' ';
-  error->warning(FLERR, "Fix flow/force {}, step {}:{}of {}", id, update->ntimestep, text, all[2]);
+    text += fmt::format("{}lift saffman is meant for Re <= 1, Re_G <= 1, Re <= sqrt(Re_G), not met "
+                        "by {} of {} particles",
+                        text.empty() ? "" : "; ", all[1], all[2]);
+  error->warning(FLERR, "Fix flow/force {}, step {}: {}", id, update->ntimestep, text);
 }

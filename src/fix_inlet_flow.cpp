@@ -11,8 +11,10 @@
 #include "particle_checks.h"
 #include "random_mars.h"
 #include "respa.h"
+#include "restart_state.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -351,13 +353,15 @@ void FixInletFlow::write_restart(FILE *fp)
 {
   random->get_state(state.random);
   if (comm->me != 0) return;
-  const int bytes = sizeof(State);
-  fwrite(&bytes, sizeof(int), 1, fp);
-  fwrite(&state, sizeof(State), 1, fp);
+  const auto *numbers = reinterpret_cast<const double *>(&state);
+  RestartState::write(lmp, this, {numbers, numbers + sizeof(State) / sizeof(double)}, fp);
 }
 
 void FixInletFlow::restart(char *buf)
 {
-  memcpy(&state, buf, sizeof(State));
+  RestartState saved(lmp, this, buf);
+  const size_t count = sizeof(State) / sizeof(double);
+  std::copy_n(saved.next(count), count, reinterpret_cast<double *>(&state));
+  saved.end();
   random->set_state(state.random);
 }

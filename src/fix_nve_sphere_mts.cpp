@@ -1,11 +1,9 @@
 #include "fix_nve_sphere_mts.h"
 
 #include "atom.h"
-#include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
 #include "fix_flow_force.h"
-#include "force.h"
 #include "math_extra.h"
 #include "update.h"
 
@@ -74,10 +72,7 @@ void FixNVESphereMTS::initial_integrate(int /*vflag*/)
   choose_steps();
 
   drift_free();
-  if (domain->dimension == 2)
-    sub_step_active<apf::PlaneRow>();
-  else
-    sub_step_active<apf::SpaceRow>();
+  sub_step_active();
   std::copy_n(foresight.ahead.activity.begin(), atom->nlocal, activity.begin());
 }
 
@@ -243,60 +238,6 @@ void FixNVESphereMTS::end_slow_kicks()
       atom->v[i][c] += time * (now.a[c] - slow_before[i][c]);
       atom->omega[i][c] += spin_time * (now.alpha[c] - slow_before[i][3 + c]);
     }
-  }
-}
-
-/* ----------------------------------------------------------------------
-   collision steps in the rows of the particles; the inner loop touches nothing else
-------------------------------------------------------------------------- */
-
-template <class Row> void FixNVESphereMTS::sub_step_active()
-{
-  const double dt = collision_step();
-  const bool newton = force->newton_pair;
-  auto &bodies = history->bodies();
-  auto &exchange = foresight.exchange;
-  Row *rows = bodies.rows<Row>();
-
-  std::vector<int> moving, held;
-  std::vector<apf::Kick<Row>> kicks;
-  moving.reserve(active_now);
-  kicks.reserve(active_now);
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (foresight.free(i)) continue;
-    bodies.touch(i);    // also by contacts of its images
-    bodies.place(i, atom->x[i]);
-    bodies.set_motion(i, atom->v[i], atom->omega[i]);
-    if (!(atom->mask[i] & groupbit)) {
-      held.push_back(i);
-      continue;
-    }
-    const auto slow = slow_of(i);
-    std::copy_n(slow.a, 3, slow_before[i].begin());
-    std::copy_n(slow.alpha, 3, slow_before[i].begin() + 3);
-    apf::Kick<Row>::of(slow, 0.5 * dt).apply(rows[i]);
-    apf::drift(rows[i], dt);
-    moving.push_back(i);
-    kicks.push_back(apf::Kick<Row>::of(slow, dt));
-  }
-
-  const apf::ContactTimes times{dt, 0.5 * dt, dt};
-  const int n = static_cast<int>(moving.size());
-  for (int step = 1; step < n_collision; step++) {
-    exchange.forward(rows, 1.0 - static_cast<double>(step) / n_collision);
-    for (const int i : held) bodies.clear_loads(i, i + 1);
-    for (const int i : exchange.ghosts()) bodies.clear_loads(i, i + 1);
-    for (auto *keeper : keepers) keeper->sub_step(times);
-    if (newton) exchange.reverse(rows);
-    for (int k = 0; k < n; k++) {
-      kicks[k].apply(rows[moving[k]]);
-      apf::drift(rows[moving[k]], dt);
-    }
-  }
-
-  for (const int i : moving) {
-    bodies.position(i, atom->x[i]);
-    bodies.motion(i, atom->v[i], atom->omega[i]);
   }
 }
 

@@ -11,6 +11,7 @@ FixStyle(nve/sphere/mts,FixNVESphereMTS);
 
 #include "fix.h"
 
+#include "contact/islands.h"
 #include "contact/stiffness.h"
 #include "particle_look_ahead.h"
 #include "timestep/sub_step.h"
@@ -86,6 +87,7 @@ class FixNVESphereMTS : public Fix {
   std::vector<char> activity;    // of local atoms: was sub-stepped in the last particle step
   std::vector<std::array<double, 6>> slow_before;    // accelerations that it began with
   ParticleLookAhead foresight;
+  apf::Islands islands;    // of the present particle step, where there are several tiles
   class FixContactHistory *history = nullptr;
   std::vector<class FixContacts *> keepers;
   std::vector<class FixFlowForce *> fluids;
@@ -109,7 +111,11 @@ class FixNVESphereMTS : public Fix {
   void kick_atom(int i, double time);
   void kick_free(int i, double load_time);
   void end_slow_kicks();
+  void sub_step_active();
   template <class Row> void sub_step_active();
+  template <class Row>
+  std::vector<apf::Kick<Row>> begin_steps(const std::vector<int> &moving, Row *rows);
+  apf::ByTile form_tiles(std::vector<int> &moving, const std::vector<int> &held);
   void drift_free();
   bigint late_contacts() const;
 };

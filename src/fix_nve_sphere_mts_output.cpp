@@ -5,6 +5,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "fix_contacts.h"
+#include "restart_state.h"
 #include "update.h"
 
 #include <algorithm>
@@ -76,23 +77,23 @@ void FixNVESphereMTS::write_restart(FILE *fp)
 {
   const double late = static_cast<double>(late_contacts());
   if (comm->me != 0) return;
-  const double state[3] = {static_cast<double>(n_collision),
-                           static_cast<double>(all_collision_steps), late};
-  const int bytes = sizeof(state);
-  fwrite(&bytes, sizeof(int), 1, fp);
-  fwrite(state, sizeof(double), 3, fp);
+  RestartState::write(
+      lmp, this, {static_cast<double>(n_collision), static_cast<double>(all_collision_steps), late},
+      fp);
 }
 
 void FixNVESphereMTS::restart(char *buf)
 {
-  const auto *state = reinterpret_cast<const double *>(buf);
-  if (!fixed_steps) n_collision = static_cast<int>(state[0]);
-  all_collision_steps = static_cast<bigint>(state[1]);
-  late_before_restart = static_cast<bigint>(state[2]);
+  RestartState state(lmp, this, buf);
+  const double steps = state.next();
+  if (!fixed_steps) n_collision = static_cast<int>(steps);
+  all_collision_steps = static_cast<bigint>(state.next());
+  late_before_restart = static_cast<bigint>(state.next());
+  state.end();
 }
 
 double FixNVESphereMTS::memory_usage()
 {
   return activity.capacity() + slow_before.capacity() * sizeof(slow_before[0]) +
-      foresight.memory_usage();
+      foresight.memory_usage() + islands.memory_usage();
 }

@@ -29,11 +29,13 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   check_spheres(lmp, command, 2);
   scalar_flag = 1;
   vector_flag = 1;
-  size_vector = 12;
+  size_vector = n_loads + n_bridge_loads;
   global_freq = 1;
   extscalar = 1;
   extvector = -1;    // forces and torques are extensive, counts are not to be divided by atoms
-  extlist = new int[12]{1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1};
+  extlist = new int[size_vector];
+  std::fill_n(extlist, size_vector, 1);
+  std::fill_n(extlist + 6, 4, 0);
   energy_global_flag = 1;
   virial_global_flag = virial_peratom_flag = 1;
   respa_level_support = 1;
@@ -141,7 +143,8 @@ void FixWallLevelset::check_particles()
     check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, bodies.R, r);
     if (step_is_given() && m > 0.0)    // LAMMPS's own inserters do not tell the mass
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
-                     apf::stiffest_mode(coefficient.model, bodies), step_of_level());
+                     apf::stiffest_mode({coefficient.bridge, coefficient.model}, bodies, r),
+                     step_of_level());
   }
 }
 
@@ -177,10 +180,12 @@ void FixWallLevelset::check_grid(double smallest, double largest)
   constexpr double without_adhesion = 1.0e-3;    // what delta_C of micron-sized dust is to R
   const double allowed = resolution *
       (coefficient.model.adhesive() ? normal.pulloff_overlap() : without_adhesion * smallest);
-  const double now[3] = {smallest, largest, allowed};
-  if (std::equal(now, now + 3, checked_for)) return;
-  std::copy(now, now + 3, checked_for);
+  const double of_bridges = wet ? coefficient.bridge.longest(largest) : 0.0;
+  const double now[4] = {smallest, largest, allowed, of_bridges};
+  if (std::equal(now, now + 4, checked_for)) return;
+  std::copy(now, now + 4, checked_for);
   grid->check(surfaces, smallest, largest, allowed);
+  if (wet) grid->check_bridges(surfaces, smallest, largest + of_bridges);
 }
 
 /* ----------------------------------------------------------------------
@@ -250,7 +255,7 @@ void FixWallLevelset::post_force(int vflag)
   const int ended = add_forces(times, before);
   const int ruptured = wet ? bridges.add_forces(times, due) : 0;
   ledger.clear_loads();
-  loads_summed = settled = false;
+  loads_summed = bridge_loads_summed = settled = false;
   tally(rows, contacts.source, surface_of);
   if (wet) {
     return_loads(bridges.copies(), bridges.atoms());

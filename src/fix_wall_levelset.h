@@ -45,6 +45,7 @@ class FixWallLevelset : public FixContacts {
   void find_approaching(apf::LookAhead &) override;
   bool find_near(apf::LookAhead &) override;
   void sub_step(const apf::ContactTimes &) override;
+  void pin(apf::Islands &) const override;
   double distance(const double *x) const;    // > 0 in the fluid; of the nearest surface
   double contacts_here() const override { return contacts.size(); }
   void find_stiffest(apf::Stiffest &) override;
@@ -52,7 +53,7 @@ class FixWallLevelset : public FixContacts {
 
   // ---- for apf_advise and the checks of a run's start: the contact of a sphere at one surface
   const std::vector<apf::Surface> &all_surfaces() const { return surfaces; }
-  const apf::ContactModel &contact_model() const { return coefficient.model; }
+  const ContactCoeff &contact_coeff() const { return coefficient; }
   static apf::ContactBodies bodies_at(const apf::Surface &, double radius, double mass);
 
   // ---- for compute wall/deposit
@@ -69,7 +70,7 @@ class FixWallLevelset : public FixContacts {
   void add_counts(double *) override;
   int level() const override;
   std::vector<double> global_state() const override;
-  void set_global_state(const double *) override;
+  void set_global_state(class RestartState &) override;
 
  private:
   static constexpr const char *command = "Fix wall/levelset";
@@ -77,7 +78,7 @@ class FixWallLevelset : public FixContacts {
   std::unique_ptr<WallGrid> grid;    // where surfaces come from a file
   WallMotion motion;
   double resolution = 0.05;      // error of a gridded distance in units of delta_C
-  double checked_for[3] = {};    // radii and error that the grid is good for
+  double checked_for[4] = {};    // radii, error, reach of bridges that the grid is good for
   ContactCoeff coefficient;
   apf::KernelChoice choice;
   apf::ContactKernel kernel;
@@ -109,12 +110,16 @@ class FixWallLevelset : public FixContacts {
   class Fix *rigid = nullptr;
   double captured = 0.0, detached = 0.0;            // contacts begun and ended, of this rank
   WallLedger ledger{lmp, surfaces, motion.pose};    // force and torque on zones of the wall
-  double all_loads[12] = {};    // the same over all ranks, contacts, begun, ended, bridges, liquid
-  bool loads_summed = false, settled = false;
+  static constexpr int n_loads = 12, n_bridge_loads = 7;
+  double all_loads[n_loads] = {};    // the same over all ranks, contacts, begun, ended, bridges,
+                                     // liquid
+  double all_bridge_loads[n_bridge_loads] = {};    // capillary, viscous, energy
+  bool loads_summed = false, bridge_loads_summed = false, settled = false;
   std::unique_ptr<ComputeAggregateContact> aggregates;
   std::vector<int> count_of_atom;    // for other styles: contacts of each atom
   std::unique_ptr<WallImage> drawn;
 
+  double bridge_load(int n);
   apf::Bodies &particles();
   void find_again();
   void detect();

@@ -7,6 +7,7 @@
 #include "compute_aggregate_contact.h"
 #include "domain.h"
 #include "fix_contact_history.h"
+#include "restart_state.h"
 
 #include <cstring>
 
@@ -26,19 +27,20 @@ double FixWallLevelset::compute_scalar()
     for (const auto &p : parts)
       energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
   }
-  if (wet) energy += bridges.energy();
+  if (wet) energy += bridges.loads().energy;
   double all;
   MPI_Allreduce(&energy, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
 }
 
 // force 3, torque about the origin 3, contacts, contacts begun, contacts ended, bridges, liquid in
-// them, liquid left on the wall
+// them, liquid left on the wall; of bridges: capillary force 3, viscous force 3, energy
 double FixWallLevelset::compute_vector(int n)
 {
+  if (n >= n_loads) return bridge_load(n - n_loads);
   if (!loads_summed) {
     before_storing();
-    double mine[12];
+    double mine[n_loads];
     const auto loads = ledger.total_load();
     std::copy(loads.begin(), loads.end(), mine);
     mine[6] = contacts.size();
@@ -47,10 +49,21 @@ double FixWallLevelset::compute_vector(int n)
     mine[9] = bridges.size();
     mine[10] = bridges.liquid_held();
     mine[11] = ledger.total_liquid() + bridges.liquid_from_wall();
-    MPI_Allreduce(mine, all_loads, 12, MPI_DOUBLE, MPI_SUM, world);
+    MPI_Allreduce(mine, all_loads, n_loads, MPI_DOUBLE, MPI_SUM, world);
     loads_summed = true;
   }
   return all_loads[n];
+}
+
+double FixWallLevelset::bridge_load(int n)
+{
+  if (wet && !bridge_loads_summed) {
+    const auto mine = bridges.loads();
+    static_assert(sizeof(mine) == n_bridge_loads * sizeof(double));
+    MPI_Allreduce(&mine, all_bridge_loads, n_bridge_loads, MPI_DOUBLE, MPI_SUM, world);
+    bridge_loads_summed = true;
+  }
+  return all_bridge_loads[n];
 }
 
 // rows: zones of the wall, and the whole of it
@@ -75,14 +88,17 @@ std::vector<double> FixWallLevelset::global_state() const
   return state;
 }
 
-void FixWallLevelset::set_global_state(const double *state)
+void FixWallLevelset::set_global_state(RestartState &state)
 {
-  if (comm->me == 0) {    // counts are sums over ranks
-    captured = state[0];
-    detached = state[1];
+  const double *counts = state.next(2);
+  if (comm->me == 0) {    // they are sums over ranks
+    captured = counts[0];
+    detached = counts[1];
   }
-  if (state[2] != 0.0 && motion.pose.moves) motion.pose.read(state + 3);
-  ledger.set_state(state + 3 + apf::WallPose::state_size, fmt::format("{} {}", command, id));
+  const bool moved = state.next() != 0.0;
+  const double *pose = state.next(apf::WallPose::state_size);
+  if (moved && motion.pose.moves) motion.pose.read(pose);
+  ledger.set_state(state, fmt::format("{} {}", command, id));
 }
 
 /* ----------------------------------------------------------------------

@@ -106,6 +106,12 @@ void FixWallLevelset::sub_step(const apf::ContactTimes &times)
   if (ended) remove_ended(true);
 }
 
+void FixWallLevelset::pin(apf::Islands &islands) const
+{
+  for (const int i : contacts.source) islands.pin(i);
+  for (const auto &candidate : near) islands.pin(candidate.i);
+}
+
 void FixWallLevelset::settle_bridges()
 {
   if (wet) bridges.settle();

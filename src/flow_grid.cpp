@@ -45,6 +45,9 @@ FlowGrid::FlowGrid(LAMMPS *lmp, const std::string &path_in, const Options &optio
   attempt([this] {
     times = file->times();
     known_distance = file->has("distance");
+    // before the box is compared with a grid that may not be that of the arrays
+    file->check("velocity", 3);
+    if (known_distance) file->check("distance", 1);
   });
   int nsteps = times.size(), has = known_distance;
   MPI_Bcast(&has, 1, MPI_INT, 0, world);

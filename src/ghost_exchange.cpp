@@ -137,6 +137,14 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
   }
 }
 
+void GhostExchange::pin(apf::Islands &islands) const
+{
+  for (const int i : chosen) islands.pin(i);
+  for (const int i : self.sent) islands.pin(i);
+  for (const auto &p : partners)
+    for (const int i : p.sent) islands.pin(i);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void GhostExchange::start(int tag)

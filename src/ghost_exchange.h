@@ -6,6 +6,7 @@
 #define APF_GHOST_EXCHANGE_H
 
 #include "contact/bodies.h"
+#include "contact/islands.h"
 
 #include <mpi.h>
 #include <vector>
@@ -32,6 +33,8 @@ class GhostExchange {
   template <class Row> void reverse(Row *rows);
 
   const std::vector<int> &ghosts() const { return chosen; }
+  // these, and the own atoms that others have as ghosts, have to do with others
+  void pin(apf::Islands &) const;
 
  private:
   struct Image {

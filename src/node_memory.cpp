@@ -1,17 +1,28 @@
 #include "node_memory.h"
 
-#include <exception>
-#include <memory>
+#include <cstdint>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 using namespace LAMMPS_NS;
 
-static constexpr std::size_t line = 64;                        // bytes of a cache line
-static constexpr std::size_t spare = line / sizeof(double);    // numbers that aligning may cost
+static constexpr std::size_t line = 64;    // bytes of a cache line
 
-static double *aligned(void *from)
+// Memory of at least one large page lies in such pages. Particles take numbers from everywhere in a
+// grid, and the processor remembers where few pages are: on a grid of 128^3 nodes the flow at a
+// particle took 1.3 to 1.4 times as long in small ones.
+static void *in_large_pages(std::size_t bytes)
 {
-  std::size_t space = 2 * line;
-  return static_cast<double *>(std::align(line, line, from, space));
+  constexpr std::size_t page = std::size_t(2) << 20;
+  if (bytes > SIZE_MAX - page) return nullptr;
+  const std::size_t unit = bytes < page ? line : page, whole = (bytes + unit - 1) / unit * unit;
+  void *memory = std::aligned_alloc(unit, whole);
+#ifdef MADV_HUGEPAGE
+  if (memory && unit == page) madvise(memory, whole, MADV_HUGEPAGE);    // a wish
+#endif
+  return memory;
 }
 
 #ifdef MPI_STUBS
@@ -26,6 +37,14 @@ bool NodeMemory::share(std::size_t)
 }
 
 #else
+
+static constexpr std::size_t spare = line / sizeof(double);    // numbers that aligning may cost
+
+static double *aligned(void *from)
+{
+  std::size_t space = 2 * line;
+  return static_cast<double *>(std::align(line, line, from, space));
+}
 
 NodeMemory::NodeMemory(MPI_Comm world)
 {
@@ -80,15 +99,12 @@ bool NodeMemory::share(std::size_t count)
 bool NodeMemory::allocate(std::size_t count)
 {
   release();
-  own = {};
+  own.reset();
   numbers = nullptr;
   size = count;
   if (nprocs > 1) return share(count);
-  try {
-    own.resize(count + spare);
-  } catch (const std::exception &) {
-    return false;
-  }
-  numbers = aligned(own.data());
-  return true;
+  if (count > SIZE_MAX / sizeof(double)) return false;
+  own.reset(in_large_pages(count * sizeof(double)));
+  numbers = static_cast<double *>(own.get());
+  return numbers || count == 0;
 }

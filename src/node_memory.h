@@ -1,5 +1,5 @@
 // Numbers that all ranks of a node read: one copy in its memory, written by the lowest rank there.
-// They begin where a cache line does.
+// They begin where a cache line does, and lie in large pages where the system gives such on demand.
 
 #ifndef LMP_NODE_MEMORY_H
 #define LMP_NODE_MEMORY_H
@@ -7,7 +7,8 @@
 #include <mpi.h>
 
 #include <cstddef>
-#include <vector>
+#include <cstdlib>
+#include <memory>
 
 namespace LAMMPS_NS {
 
@@ -30,7 +31,10 @@ class NodeMemory {
   int me = 0, nprocs = 1;
   std::size_t size = 0;
   double *numbers = nullptr;
-  std::vector<double> own;    // where the node has one rank only
+  struct Free {
+    void operator()(void *from) const { std::free(from); }
+  };
+  std::unique_ptr<void, Free> own;    // where the node has one rank only
 #ifndef MPI_STUBS
   MPI_Comm node;
   MPI_Win window = MPI_WIN_NULL;

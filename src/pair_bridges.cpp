@@ -64,7 +64,7 @@ int PairBridges::number_of_kind(int i, int j)
 {
   const auto &coeff = pair->coeff_of(i, j);
   return list.kinds.find(pair->law_of(i, j), apf::WetContact{coeff.bridge, coeff.model},
-                         pair->bodies_of(i, j, 1.0, 1.0));
+                         pair->bodies_of_bridge(i, j, 1.0, 1.0));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -99,8 +99,7 @@ void PairBridges::form(int k, const apf::Approach &approach, double step)
     unsettled[k] = 1;
   }
   const int added = list.add(i, j, k, number_of_kind(i, j), memory, true);
-  const auto bodies = pair->bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0);
-  list.set_mass(added, bodies.m / bodies.crowding);
+  list.set_mass(added, mass_left(i, j, store->count(i) + 1.0, store->count(j) + 1.0));
   meetings.closed[k] = 1;
   store->bodies().touch(i);
   store->bodies().touch(j);
@@ -162,13 +161,18 @@ void PairBridges::remove_ruptured(bool in_sub_step)
   }
 }
 
-// the masses of particles are shared by all their contacts and bridges
+// The masses of particles are shared by all their contacts and bridges, zi and zj of them.
+double PairBridges::mass_left(int i, int j, double zi, double zj) const
+{
+  const auto bodies = pair->bodies_of_bridge(i, j, zi, zj);
+  return bodies.m / bodies.crowding;
+}
+
 void PairBridges::share_masses()
 {
   for (int b = 0; b < list.size(); b++) {
     const int i = list.i[b], j = list.j[b];
-    const auto bodies = pair->bodies_of(i, j, store->count(i), store->count(j));
-    list.set_mass(b, bodies.m / bodies.crowding);
+    list.set_mass(b, mass_left(i, j, store->count(i), store->count(j)));
   }
 }
 

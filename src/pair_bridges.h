@@ -63,6 +63,7 @@ class PairBridges : protected Pointers {
   apf::BridgeMemory intake(int i, int j) const;
   void form(int k, const apf::Approach &, double step);
   int number_of_kind(int i, int j);    // in list.kinds
+  double mass_left(int i, int j, double zi, double zj) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -11,6 +11,7 @@
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
+#include "particle_checks.h"
 #include "update.h"
 
 #include <algorithm>
@@ -192,6 +193,24 @@ void PairGranularAdhesive::sub_step(const apf::ContactTimes &times)
   if (ruptured) bridges.remove_ruptured(true);
 }
 
+void PairGranularAdhesive::join_bodies(apf::Islands &islands) const
+{
+  for (int k = 0; k < contacts.size(); k++) islands.join(contacts.i[k], contacts.j[k]);
+  for (const int k : candidates.near) islands.join(candidates.i[k], candidates.j[k]);
+}
+
+void PairGranularAdhesive::part(const apf::Islands &islands)
+{
+  tiles.part(
+      contacts, candidates.near, islands.size(),
+      [&](int k) {
+        return islands.tile_of(contacts.i[k]);
+      },
+      [&](int n) {
+        return islands.tile_of(candidates.i[candidates.near[n]]);
+      });
+}
+
 /* ----------------------------------------------------------------------
    candidates = pairs of a new neighbour list; closed contacts are found again by atom ID
 ------------------------------------------------------------------------- */
@@ -287,6 +306,15 @@ apf::ContactBodies PairGranularAdhesive::bodies_of(int i, int j, double zi, doub
   if (frozen_j && !frozen_i) inv_mj = inv_Ij = 0.0;
   auto bodies = apf::ContactBodies::pair(ri, rj, 1.0 / (inv_mi + inv_mj), 1.0 / (inv_Ii + inv_Ij));
   bodies.crowding = (zi * inv_mi + zj * inv_mj) * bodies.m;
+  return bodies;
+}
+
+// Two frozen particles, too, move as they are made to, whatever a bridge between them exerts: its
+// viscous force is that of their speed.
+apf::ContactBodies PairGranularAdhesive::bodies_of_bridge(int i, int j, double zi, double zj) const
+{
+  auto bodies = bodies_of(i, j, zi, zj);
+  if (atom->mask[i] & atom->mask[j] & freeze_group_bit) bodies.m *= immovable;
   return bodies;
 }
 

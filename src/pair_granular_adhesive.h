@@ -11,6 +11,7 @@ PairStyle(granular/adhesive,PairGranularAdhesive);
 
 #include "contact/candidates.h"
 #include "contact/contact_kernel.h"
+#include "contact/contact_tiles.h"
 #include "contact_keywords.h"
 #include "pair_bridges.h"
 #include "pair_index.h"
@@ -50,7 +51,7 @@ class PairGranularAdhesive : public Pair {
   bool planar() const { return choice.planar; }
   void list_was_built() { rebuild = true; }
   apf::StiffestMode stiffest_possible() const;    // of any two particles
-  const apf::ContactModel &model_of_types(int i, int j) const { return coefficients[i][j].model; }
+  const ContactCoeff &coeff_of_types(int i, int j) const { return coefficients[i][j]; }
 
   // sub-steps of a particle step, see FixContacts
   void find_fastest(apf::LookAhead &);
@@ -59,9 +60,19 @@ class PairGranularAdhesive : public Pair {
   void find_stiffest(apf::Stiffest &);
   void sub_step(const apf::ContactTimes &);
 
+  // tiles of bodies whose collision steps are taken apart from the rest, see contact/islands.h
+  bool has_tiles() const { return !wet; }    // bridges look through all pairs
+  int pairs_to_step() const { return contacts.size() + static_cast<int>(candidates.near.size()); }
+  void join_bodies(apf::Islands &) const;
+  void part(const apf::Islands &);
+  void enter_tile(int tile) { tiles.enter(tile, contacts, candidates.near); }
+  void leave_tile() { tiles.leave(contacts, candidates.near); }
+  void join_tiles() { tiles.join(contacts); }
+
   // for its bridges; of two atoms, or of a candidate
   const ContactCoeff &coeff_of(int i, int j) const;
   apf::ContactBodies bodies_of(int i, int j, double zi, double zj) const;
+  apf::ContactBodies bodies_of_bridge(int i, int j, double zi, double zj) const;
   int law_of(int i, int j) const;    // number of the coefficient
   bool is_closed(int candidate) const { return candidates.closed[candidate]; }
 
@@ -69,6 +80,7 @@ class PairGranularAdhesive : public Pair {
   void parse_types(const char *word, int iarg, int &lo, int &hi) const;
   apf::Candidates candidates;    // pairs of the neighbour list
   apf::ContactList contacts;
+  apf::ContactTiles tiles;
   apf::KernelChoice choice;
   apf::ContactKernel kernel = nullptr;
   PairBridges bridges;

@@ -132,7 +132,7 @@ void PairGranularAdhesive::find_special_bodies()
   if (freezes.size() > 1)
     error->all(FLERR, Error::NOLASTLINE, "Pair granular/adhesive allows one fix freeze, got {}",
                freezes.size());
-  freeze_group_bit = freezes.empty() ? 0 : freezes[0]->groupbit;
+  freeze_group_bit = frozen_groups(lmp);
 
   rigid = nullptr;
   for (const auto &fix : modify->get_fix_list())
@@ -223,7 +223,9 @@ apf::StiffestMode PairGranularAdhesive::stiffest_possible() const
       const double ri = sizes.radius_min[i], rj = sizes.radius_min[j];
       const double inv_I = 2.5 / (mi * ri * ri) + 2.5 / (mj * rj * rj);
       const auto bodies = apf::ContactBodies::pair(ri, rj, mi * mj / (mi + mj), 1.0 / inv_I);
-      worst = std::max(worst, apf::stiffest_mode(coefficients[i][j].model, bodies));
+      const auto &coeff = coefficients[i][j];
+      worst = std::max(worst,
+                       apf::stiffest_mode({coeff.bridge, coeff.model}, bodies, std::min(ri, rj)));
     }
   return worst;
 }

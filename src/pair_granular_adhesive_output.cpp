@@ -126,5 +126,6 @@ void *PairGranularAdhesive::extract(const char *name, int &dim)
 double PairGranularAdhesive::memory_usage()
 {
   return Pair::memory_usage() + bridges.memory_usage() + contacts.memory_usage() +
-      candidates.memory_usage() + parts.capacity() * sizeof(apf::ContactParts);
+      tiles.memory_usage() + candidates.memory_usage() +
+      parts.capacity() * sizeof(apf::ContactParts);
 }

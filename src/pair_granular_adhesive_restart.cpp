@@ -4,6 +4,8 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
+#include "restart_state.h"
 
 using namespace LAMMPS_NS;
 
@@ -11,6 +13,9 @@ using namespace LAMMPS_NS;
 
 void PairGranularAdhesive::write_restart(FILE *fp)
 {
+  RestartMark mark;
+  mark.count = sizeof(ContactCoeff);
+  fwrite(&mark, sizeof(mark), 1, fp);
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {
       fwrite(&setflag[i][j], sizeof(int), 1, fp);
@@ -20,6 +25,13 @@ void PairGranularAdhesive::write_restart(FILE *fp)
 
 void PairGranularAdhesive::read_restart(FILE *fp)
 {
+  RestartMark mark;
+  if (comm->me == 0) utils::sfread(FLERR, &mark, sizeof(mark), 1, fp, nullptr, error);
+  MPI_Bcast(&mark, sizeof(mark), MPI_BYTE, 0, world);
+  if (!mark.known() || mark.count != sizeof(ContactCoeff))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair granular/adhesive: its part of the restart file cannot be used: another "
+               "version of APF wrote it");
   if (!allocated) allocate();
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) {

@@ -2,6 +2,8 @@
 
 #include "atom.h"
 #include "error.h"
+#include "fix.h"
+#include "modify.h"
 
 namespace LAMMPS_NS {
 
@@ -13,6 +15,13 @@ void check_spheres(LAMMPS *lmp, const std::string &who, int iarg)
                     "{} needs atom style sphere: radius, mass, omega and torque per atom; atom "
                     "style {} has not all of them",
                     who, atom->get_style());
+}
+
+int frozen_groups(LAMMPS *lmp)
+{
+  int bits = 0;
+  for (const auto &fix : lmp->modify->get_fix_by_style("^freeze")) bits |= fix->groupbit;
+  return bits;
 }
 
 }    // namespace LAMMPS_NS

@@ -13,6 +13,12 @@ class LAMMPS;
 //   iarg   argument to point at, or Error::NOLASTLINE outside of the command
 void check_spheres(LAMMPS *lmp, const std::string &who, int iarg);
 
+// Bits of the groups that fix freeze holds: forces do not move their particles.
+int frozen_groups(LAMMPS *lmp);
+// ... whose mass counts that many times where a bridge is solved for the speed that it leaves. More
+// would be lost in rounding: the viscous momentum is mass times a difference of gaps.
+constexpr double immovable = 1.0e7;
+
 }    // namespace LAMMPS_NS
 
 #endif

@@ -5,6 +5,8 @@
 #include "error.h"
 #include "fix_contact_history.h"
 #include "fix_wall_levelset.h"
+#include "math_extra.h"
+#include "particle_checks.h"
 #include "update.h"
 
 #include <algorithm>
@@ -40,6 +42,7 @@ void WallBridges::init()
   choice.planar = rows.planar();
   choice.include(model);
   kernel = apf::bridge_kernel(choice);
+  frozen_bits = frozen_groups(lmp);
   if (model.inventory() && !(wall->lender && wall->lender->keeps_liquid()))
     error->all(FLERR, Error::NOLASTLINE,
                "Fix wall/levelset {} keyword inventory needs a pair style granular/adhesive with "
@@ -125,8 +128,9 @@ double WallBridges::forming_distance(int i, double film) const
 int WallBridges::number_of_kind(int i, int surface)
 {
   const auto &law = wall->coefficient;
-  return list.kinds.find(surface, apf::WetContact{law.bridge, law.model},
-                         wall->bodies_of(i, surface, atom->x[i]));
+  auto bodies = wall->bodies_of(i, surface, atom->x[i]);
+  if (atom->mask[i] & frozen_bits) bodies.m *= immovable;
+  return list.kinds.find(surface, apf::WetContact{law.bridge, law.model}, bodies);
 }
 
 void WallBridges::add(int i, int surface, const apf::BridgeMemory &memory, bool is_new)
@@ -235,13 +239,25 @@ void WallBridges::share_masses()
     list.set_mass(b, list.mass_alone(b) / wall->crowding(list.source[b]));
 }
 
-double WallBridges::energy()
+WallBridges::Loads WallBridges::loads()
 {
   gather();
   std::vector<apf::BridgeParts> parts(size());
-  kernel(list, rows, {0.0, 0.0, 0.0}, parts.data());
-  double sum = 0.0;
-  for (const auto &part : parts) sum += part.energy;
+  kernel(list, rows, wall->lender ? wall->lender->last_times() : wall->last_times(), parts.data());
+  Loads sum{};
+  for (int b = 0; b < size(); b++) {
+    double x[3], foot[3], normal[3];
+    rows.position(list.i[b], x);
+    rows.position(list.j[b], foot);
+    MathExtra::sub3(foot, x, normal);
+    MathExtra::norm3(normal);
+    for (int c = 0; c < 3; c++) {
+      const double pull = -parts[b].capillary * normal[c];
+      sum.capillary[c] += pull;
+      sum.viscous[c] -= parts[b].force[c] + pull;
+    }
+    sum.energy += parts[b].energy;
+  }
   return sum;
 }
 

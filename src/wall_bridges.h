@@ -28,7 +28,10 @@ class WallBridges : protected Pointers {
   int add_forces(const apf::ContactTimes &, std::vector<apf::DueLoad> &due);
   void remove_ruptured(bool in_sub_step);
   void share_masses();
-  double energy();
+  struct Loads {    // on the wall
+    double capillary[3], viscous[3], energy;
+  };
+  Loads loads();                      // as the last forces were
   double liquid_held() const;         // in the bridges
   double liquid_from_wall() const;    // ... the part that the wall gave
 
@@ -56,6 +59,7 @@ class WallBridges : protected Pointers {
   class FixWallLevelset *wall;
   apf::BridgeList list;    // source: the atom
   apf::BridgeKernel kernel = nullptr;
+  int frozen_bits = 0;
   std::vector<int> surface_of;     // of each bridge
   std::vector<char> unsettled;     // of each bridge: formed since liquid was settled
   std::vector<unsigned> joined;    // per atom: bit s set if a bridge joins it to surface s

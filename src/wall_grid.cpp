@@ -4,7 +4,6 @@
 #include "error.h"
 #include "math_extra.h"
 
-#include "wall/grid_survey.h"
 #include "wall/isosurface.h"
 
 #include <algorithm>
@@ -88,6 +87,24 @@ std::vector<apf::Surface> WallGrid::surfaces() const
   return all;
 }
 
+// A piece where centres of particles come that are up to a distance from it.
+apf::GridSurvey WallGrid::looked_at(const std::vector<apf::Surface> &all, int n, double smallest,
+                                    double farthest) const
+{
+  apf::GridSurvey survey;
+  const double finest = *std::min_element(lattice.spacing, lattice.spacing + lattice.dims);
+  const double nearest = 0.9 * smallest;
+  // a piece goes on behind others, where no particle comes
+  const auto reached = [&](const double *x) {
+    for (const auto &other : all)
+      if (&other != &all[n] && other.grid.distance(x) < nearest - finest) return false;
+    return true;
+  };
+  if (comm->me == 0) survey = apf::GridSurvey::of(lattice, all[n].grid, nearest, farthest, reached);
+  MPI_Bcast(&survey, sizeof(survey), MPI_BYTE, 0, world);
+  return survey;
+}
+
 /* ----------------------------------------------------------------------
    centres of particles that touch are about a radius away
 ------------------------------------------------------------------------- */
@@ -95,21 +112,9 @@ std::vector<apf::Surface> WallGrid::surfaces() const
 void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double largest,
                      double error_allowed) const
 {
-  const auto [finest, widest] =
-      std::minmax_element(lattice.spacing, lattice.spacing + lattice.dims);
+  const double widest = *std::max_element(lattice.spacing, lattice.spacing + lattice.dims);
   for (size_t n = 0; n < pieces.size(); n++) {
-    apf::GridSurvey survey;
-    const double nearest = 0.9 * smallest;
-    // a piece goes on behind others, where no particle comes
-    const auto reached = [&](const double *x) {
-      for (const auto &other : all)
-        if (&other != &all[n] && other.grid.distance(x) < nearest - *finest) return false;
-      return true;
-    };
-    if (comm->me == 0)
-      survey =
-          apf::GridSurvey::of(lattice, all[n].grid, nearest, 1.05 * largest + *widest, reached);
-    MPI_Bcast(&survey, sizeof(survey), MPI_BYTE, 0, world);
+    const auto survey = looked_at(all, n, smallest, 1.05 * largest + widest);
     const std::string where = fmt::format("{} file {}: array {}", command, path, pieces[n]);
     if (survey.nodes == 0) {
       if (comm->me == 0)
@@ -147,6 +152,31 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
       const bool bends = std::fabs(survey.curvature[c]) * largest > flat;
       surface.curvature[c] = surface.uniform && bends ? survey.curvature[c] : 0.0;
     }
+  }
+}
+
+void WallGrid::check_bridges(const std::vector<apf::Surface> &all, double smallest,
+                             double farthest) const
+{
+  constexpr double of_clipping = 2.0;    // spacings that splines reach
+  const double widest = *std::max_element(lattice.spacing, lattice.spacing + lattice.dims);
+  for (size_t n = 0; n < pieces.size(); n++) {
+    const std::string where = fmt::format("{} file {}: array {}", command, path, pieces[n]);
+    const double needed = farthest + of_clipping * widest;
+    if (all[n].reach < needed)
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} knows distances up to {:.4g} from the wall, and liquid bridges hold particles "
+                 "whose centres are up to {:.4g} from it: write the file with distances up to "
+                 "{:.4g} or more",
+                 where, all[n].reach, farthest, needed);
+    const auto survey = looked_at(all, n, smallest, farthest);
+    if (survey.slope_error > crease)
+      error->all(
+          FLERR, Error::NOLASTLINE,
+          "{} is not a smooth distance at ({:.6g}, {:.6g}, {:.6g}), where liquid bridges may "
+          "hold particles: the size of its slope differs from 1 by {:.2g}; gaps must be "
+          "wider than particles with bridges to both sides",
+          where, survey.slope_at[0], survey.slope_at[1], survey.slope_at[2], survey.slope_error);
   }
 }
 

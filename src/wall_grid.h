@@ -5,6 +5,7 @@
 
 #include "grid_file.h"
 
+#include "wall/grid_survey.h"
 #include "wall/surface.h"
 
 #include <array>
@@ -25,6 +26,10 @@ class WallGrid : public GridFile {
   // `error`. Errors if not. Sets the surfaces' curvatures. Called by all ranks.
   void check(std::vector<apf::Surface> &, double smallest, double largest, double error) const;
 
+  // The same for bridges, which hold particles whose centres are up to a distance from the wall:
+  // there it must be known and have one nearest point.
+  void check_bridges(const std::vector<apf::Surface> &, double smallest, double farthest) const;
+
   // A piece in triangles, in the plane in lines whose last two points are the same; for pictures
   // and areas. Cut when they are first asked for; where the wall moves they stay in its frame.
   using Facet = std::array<std::array<double, 3>, 3>;
@@ -42,6 +47,8 @@ class WallGrid : public GridFile {
   mutable std::vector<std::vector<Facet>> cut;    // facets of each piece, once they were asked for
 
   std::vector<Facet> cut_facets(int piece) const;
+  apf::GridSurvey looked_at(const std::vector<apf::Surface> &, int piece, double smallest,
+                            double farthest) const;
   void choose(const std::vector<std::string> &wanted, int most);
 };
 

@@ -10,6 +10,7 @@
 #include "domain.h"
 #include "error.h"
 #include "region.h"
+#include "restart_state.h"
 #include "update.h"
 
 #include <algorithm>
@@ -261,22 +262,21 @@ std::vector<double> WallLedger::state() const
   return all;
 }
 
-void WallLedger::set_state(const double *state, const std::string &of_fix)
+void WallLedger::set_state(RestartState &state, const std::string &of_fix)
 {
-  const auto length = static_cast<size_t>(*state++);
-  const std::string saved(state, state + length);
+  const size_t length = state.count();
+  const double *letters = state.next(length);
+  const std::string saved(letters, letters + length);
   if (saved != places())
     error->all(
         FLERR,
         "{}: the zones in the restart file are {}, those of the command are {}; give the same, "
         "or the fix another ID to count anew",
         of_fix, saved, places());
-  state += length;
-  has_films = state[begun.size() + ended.size() + liquid.size()] != 0.0;
-  if (comm->me != 0) return;    // numbers are sums over ranks
-  std::copy(state, state + begun.size(), begun.begin());
-  state += begun.size();
-  std::copy(state, state + ended.size(), ended.begin());
-  state += ended.size();
-  std::copy(state, state + liquid.size(), liquid.begin());
+  for (auto *numbers : {&begun, &ended, &liquid}) {
+    const double *saved_numbers = state.next(numbers->size());
+    // they are sums over ranks
+    if (comm->me == 0) std::copy_n(saved_numbers, numbers->size(), numbers->begin());
+  }
+  has_films = state.next() != 0.0;
 }

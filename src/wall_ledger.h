@@ -89,7 +89,7 @@ class WallLedger : protected Pointers {
 
   // counts since the fix was defined, with the names of zones and surfaces, for restart files
   std::vector<double> state() const;
-  void set_state(const double *state, const std::string &of_fix);
+  void set_state(class RestartState &, const std::string &of_fix);
 
  private:
   static constexpr int most_zones = 63;    // bits of marks, less one for the whole wall

@@ -11,7 +11,7 @@ endfunction()
 
 function(expect_installed root)
   file(GLOB_RECURSE plugins ${root}/apfplugin.so)
-  foreach(name materials.adhesive contact/jkr.h apf_advise.rst CITATION.cff LICENSE)
+  foreach(name materials.adhesive contact/jkr.h apf_advise.rst CITATION.cff LICENSE tools/apf_plot examples/settling/in.settling)
     file(GLOB_RECURSE all ${root}/*)
     if(NOT "${all}" MATCHES "/${name}")
       message(FATAL_ERROR "${name} is not below ${root}")

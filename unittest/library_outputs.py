@@ -115,7 +115,7 @@ check("grid: force", sum(row[1] for row in cells), -total, 1.0e-4)
 check("grid: force across", sum(abs(row[2]) for row in cells), 0.0)
 
 # ---- fix wall/levelset
-vector = vector_of("wall/levelset", "floor", 12, lmp.extract_fix)
+vector = vector_of("wall/levelset", "floor", 19, lmp.extract_fix)
 # the pair's force cancels; drag within the step takes a share step/(2 tau) = 1e-5 from every force
 check("wall/levelset [3], against the force on the spheres", vector[2], -(f[2] + f[5]), 2.0e-5)
 check("wall/levelset [7], contacts", vector[6], 1, 0)

@@ -4,6 +4,7 @@
 #
 #   sphinx-build -D html_math_renderer=mathjax -D mathjax_path=FOLDER/MathJax.js ...
 
+import re
 from pathlib import Path
 
 from docutils import nodes
@@ -18,9 +19,10 @@ nitpicky = True
 highlight_language = "none"
 
 # cmake --build BUILD --target man: apf.7 is all pages in one, and each page by itself
-pages = sorted(path.stem for path in Path(__file__).parent.glob("*.rst"))
-man_pages = [("index", "apf", "adhesive particle flow for LAMMPS", "", 7)]
-man_pages += [(page, "apf-" + page, "page of APF", "", 7) for page in pages if page != "index"]
+pages = sorted(Path(__file__).parent.glob("*.rst"))
+titles = {page.stem: re.search(r"^(.+)\n=+$", page.read_text(), re.M)[1] for page in pages}
+titles["index"] = "adhesive particle flow for LAMMPS"
+man_pages = [(name, "apf" if name == "index" else "apf-" + name, title, "", 7) for name, title in titles.items()]
 
 html_theme = "alabaster"
 html_theme_options = {

@@ -81,6 +81,11 @@ struct BridgeModel {
   }
   // Volume of a bridge; between unequal spheres that of the smaller one, as at a wall.
   double volume(double smaller_radius) const { return liquid_of(smaller_radius); }
+  // ... of the first one between particles that own their liquid, and get no more
+  double first_volume(double smaller_radius) const
+  {
+    return (inventory() ? 2.0 * intake : 1.0) * volume(smaller_radius);
+  }
   // A bridge that takes its liquid from the bodies is no larger than this.
   double largest_volume(double smaller_radius) const
   {
@@ -107,6 +112,14 @@ inline double wet_surface_energy(double x_fluid_over_dry, double Ai, double Aj, 
 {
   const double a = std::sqrt(Ai), b = std::sqrt(Aj), f = std::sqrt(Af);
   return (a - f) * (b - f) / (a * b) / (x_fluid_over_dry * x_fluid_over_dry);
+}
+// Above it the liquid would make the bodies stick better than air does. By the same rule, A of
+// unlike bodies = sqrt(A_i A_f), it does not wet them then: with works of adhesion as A, Young's
+// equation is cos(theta) = 2 sqrt(A_i / A_f) - 1 < 0 for A_f > 4 A_i.
+inline double largest_wetting_hamaker(double Ai, double Aj)
+{
+  const double sum = std::sqrt(Ai) + std::sqrt(Aj);
+  return sum * sum;
 }
 
 // Willett's fit for one volume and contact angle:

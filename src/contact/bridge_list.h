@@ -62,6 +62,15 @@ inline StiffestMode capillary_mode(const BridgeConstants &c)
   mode.mode = BRIDGE;
   return mode;
 }
+// Of a dry contact and of the bridge that its bodies will have, if any.
+inline StiffestMode stiffest_mode(const WetContact &wet, const ContactBodies &bodies,
+                                  double smaller_radius)
+{
+  const auto dry = stiffest_mode(wet.dry, bodies);
+  if (!wet.liquid.present()) return dry;
+  const double volume = wet.liquid.first_volume(smaller_radius);
+  return std::max(dry, capillary_mode(BridgeConstants::make(wet, bodies, volume)));
+}
 
 class BridgeList {
  public:

@@ -109,23 +109,47 @@ class ContactList {
       (*array)[k] = array->back();
       array->pop_back();
     }
-    Block &block = blocks[k / width];
-    const Block &last_block = blocks[last / width];
-    block.overlap[k % width] = last_block.overlap[last % width];
-    set_crowding(k, last_block.crowd_mass[last % width], last_block.crowd_roll[last % width]);
-    set_history(k, history_of(last));
+    take(k, *this, last);
     if (last % width == 0) {
       blocks.pop_back();
       space_blocks.pop_back();
     }
   }
 
-  void clear()
+  // A contact of another list that has the same kinds; its use of one is not counted.
+  void copy(const ContactList &from, int k)
+  {
+    const int n = size();
+    append(i, from.i[k]);
+    append(j, from.j[k]);
+    append(source, from.source[k]);
+    append(kind, from.kind[k]);
+    if (n % width == 0) {
+      append(blocks, {});
+      append(space_blocks, {});
+    }
+    take(n, from, k);
+  }
+
+  // contact `to` becomes, but for its bodies and kind, what `k` of another list is
+  void take(int to, const ContactList &from, int k)
+  {
+    take(blocks[to / width], to % width, from.blocks[k / width], k % width);
+    take(space_blocks[to / width], to % width, from.space_blocks[k / width], k % width);
+  }
+
+  // all contacts go, without a word to their kinds
+  void drop()
   {
     for (auto *array : {&i, &j, &source, &kind}) array->clear();
-    kinds.release_all();
     blocks.clear();
     space_blocks.clear();
+  }
+
+  void clear()
+  {
+    drop();
+    kinds.release_all();
   }
 
   // what the springs of normal and sliding hold above their least energy
@@ -245,6 +269,14 @@ class ContactList {
   {
     if (to.size() == to.capacity()) to.reserve(to.size() + to.size() / 4 + width);
     to.push_back(value);
+  }
+  template <class AnyBlock>
+  static void take(AnyBlock &to, int lane, const AnyBlock &from, int from_lane)
+  {
+    auto *lanes = reinterpret_cast<Lanes *>(&to);
+    const auto *from_lanes = reinterpret_cast<const Lanes *>(&from);
+    for (size_t n = 0; n < sizeof(AnyBlock) / sizeof(Lanes); n++)
+      lanes[n][lane] = from_lanes[n][from_lane];
   }
   void set_crowding(int k, double mass, double roll)
   {

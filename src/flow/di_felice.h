@@ -4,6 +4,8 @@
 // doi:10.1016/0301-9322(94)90011-6 (the logarithm is decimal there; the report prints ln). The
 // exponent holds for equal superficial velocities, (1 - c) times the slip u - v between the grains;
 // with that slip the factor is (1 - c)^(1 - beta). The report has the former for the latter.
+// Di Felice fitted beta for 0.01 < Re < 1e4, below which it is constant to 0.002; but he multiplies
+// the drag of a lone sphere at that Re, the report that of Stokes, which bounds the law to its Re.
 
 #ifndef APF_DI_FELICE_H
 #define APF_DI_FELICE_H

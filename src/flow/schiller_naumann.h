@@ -12,6 +12,7 @@ namespace apf {
 
 struct SchillerNaumannDrag {
   static constexpr bool linear = false;
+  static constexpr double largest_reynolds = 800.0;    // for which it is meant
   // second argument: volume fraction of particles, which this law does not know
   template <class Real> static APF_INLINE Real factor(const Real &reynolds, const Real &)
   {

@@ -57,6 +57,7 @@ APF_INLINE Real particle_reynolds(const Real &slip, const Real &diameter, double
 // drag law with f = 1; linear: its relaxation time does not depend on the slip
 struct StokesDrag {
   static constexpr bool linear = true;
+  static constexpr double largest_reynolds = 1.0;    // for which it is meant
   template <class Real> static APF_INLINE Real factor(const Real &, const Real &)
   {
     return Real(1.0);

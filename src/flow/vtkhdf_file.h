@@ -35,6 +35,9 @@ class VtkhdfFile {
   bool has(const std::string &array) const;
   std::vector<std::string> arrays() const;    // names of all point arrays
 
+  // That an array is there, of float or double with so many components at each node of grid().
+  void check(const std::string &array, int components) const;
+
   // Reads a frame (0 if the file is steady) of an array of float or double with so many components
   // per node: the lowest layers along z, components fastest, then x, y, z. All values are finite.
   std::vector<double> read(const std::string &array, int components, int frame, int layers) const;
@@ -58,6 +61,8 @@ class VtkhdfFile {
   void close();
   void read_grid();
   void read_steps();
+  std::int64_t find(const std::string &array) const;
+  Shape checked(std::int64_t data, const std::string &array, int components, int frame) const;
   std::uint64_t frame_offset(const std::string &array, int frame) const;
   Shape shape(const std::string &array, const std::vector<std::uint64_t> &dims, int components,
               int frame) const;

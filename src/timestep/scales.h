@@ -12,6 +12,7 @@
 #ifndef APF_SCALES_H
 #define APF_SCALES_H
 
+#include "../contact/bridge_list.h"
 #include "../contact/jkr.h"
 #include "../contact/stiffness.h"
 #include "../flow/stokes.h"
@@ -64,12 +65,13 @@ struct ContactScales {
   double impact_overlap;    // of an impact at the speed U, Hertz                   [length]
   double pulloff_force;     // F_C                                                   [force]
   double sticking_speed;    // V_s: an undamped impact below it sticks            [velocity]
-  StiffestMode rest;        // of the contact at rest
+  StiffestMode rest;        // of the contact at rest, and of a bridge between its bodies
   double collision_step;    // accurate also for an impact at the speed U             [time]
 
-  static ContactScales make(const ContactModel &model, const ContactBodies &bodies, double U)
+  static ContactScales make(const WetContact &wet, const ContactBodies &bodies,
+                            double smaller_radius, double U)
   {
-    const JKR normal = model.normal(bodies.R);
+    const JKR normal = wet.dry.normal(bodies.R);
     ContactScales c{};
     c.pulloff_force = normal.pulloff_force();
     c.neck_length = normal.pulloff_overlap();
@@ -78,13 +80,14 @@ struct ContactScales {
     // (1/2) m V_s^2 = work from first touch (s^3 = 4 m^3) to the end of the neck
     const double touch = std::cbrt(4.0) * normal.neck;
     const double end =
-        jkr_root(-model.neck_share() * normal.pulloff_overlap(), 1.0 / bodies.R, normal.neck);
+        jkr_root(-wet.dry.neck_share() * normal.pulloff_overlap(), 1.0 / bodies.R, normal.neck);
     c.sticking_speed = std::sqrt(2.0 * (normal.energy(end) - normal.energy(touch)) / bodies.m);
-    c.rest = stiffest_mode(model, bodies);
+    const StiffestMode dry = stiffest_mode(wet.dry, bodies);
+    c.rest = stiffest_mode(wet, bodies, smaller_radius);
     Stiffest finest;
     finest.v45 = std::pow(U, 0.8);
-    finest.include(c.rest, 0.0, U * U);
-    c.impact_overlap = c.rest.impact * finest.v45;
+    for (const auto &mode : {dry, c.rest}) finest.include(mode, 0.0, U * U);
+    c.impact_overlap = dry.impact * finest.v45;
     c.collision_step = 1.0 / std::sqrt(finest.demand2);
     return c;
   }

@@ -7,6 +7,7 @@
 #define FLOWGRID_CELL_TO_POINT_H
 
 #include "mesh.h"
+#include "progress.h"
 
 #include <cmath>
 
@@ -68,6 +69,7 @@ class CellToPoint {
     const Lists around = cell_points.inverse(static_cast<int>(points.size()));
     std::vector<int> near, wide;
     for (int p = 0; p < around.count(); p++) {
+      if (p % 1024 == 0) show_progress("fitting", 1.0 * p / around.count());
       near.assign(around.begin(p), around.end(p));
       Fit fit(near, centres, flat);
       if (fit.rank < 3 || fit.gain(points[p], near, centres) > most_gain) {
@@ -91,6 +93,7 @@ class CellToPoint {
       }
       cells.close();
     }
+    show_progress("fitting", 1.0);
   }
 
   std::vector<double> apply(const std::vector<double> &values, int components) const

@@ -3,6 +3,7 @@
 
 #include "mapping.h"
 #include "options.h"
+#include "progress.h"
 #include "report.h"
 #include "vtk_guard.h"
 #include "vtk_input.h"
@@ -15,7 +16,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
-#include <unistd.h>
 
 using namespace flowgrid;
 
@@ -98,14 +98,17 @@ Grid make_grid(const Options &o, const Mesh &mesh)
   return make_grid(o, low, high, mesh.dim() == 2);
 }
 
-void show_progress(double done)
+// Where no wall is known, or none lies within the grid, the slip is unknown and not 0.
+void tell_slip(size_t wall_points, const Quality &q)
 {
-  static int shown = -1;
-  const int percent = static_cast<int>(100.0 * done);
-  if (!isatty(2) || percent == shown) return;
-  shown = percent;
-  fprintf(stderr, "\rmapping %3d %% [%-40.*s]%s", percent, percent * 40 / 100,
-          "########################################", percent == 100 ? "\n" : "");
+  if (wall_points == 0)
+    printf("walls    no walls known: no patch is one, and no point of the border rests\n");
+  else if (q.walls_seen == 0)
+    printf("walls    %zu points, none of them within the grid\n", wall_points);
+  else
+    printf("walls    %s%zu points; largest velocity there / largest: %.2e\n",
+           q.walls_seen == wall_points ? "" : (std::to_string(q.walls_seen) + " of ").c_str(),
+           wall_points, q.slip);
 }
 
 void map(const Options &o)
@@ -115,18 +118,21 @@ void map(const Options &o)
     return std::chrono::duration<double>(Clock::now() - since).count();
   };
   auto begin = Clock::now();
+  show_progress("reading", 0.0);
   VtkInput input(o.input, o.walls, o.solution);
   Mesh mesh = input.mesh();
   for (auto &p : mesh.points)
     for (double &x : p) x *= o.scale;
   const auto steps = choose_times(o, input.times());
   const Grid grid = make_grid(o, mesh);
+  end_progress();
   printf("mesh     %d cells, %zu points, in %s; read in %.2f s\n", mesh.size(), mesh.points.size(),
          mesh.dim() == 2 ? "the plane" : "space", seconds(begin));
 
   begin = Clock::now();
-  const Mapping mapping(mesh, grid, show_progress);
+  const Mapping mapping(mesh, grid);
   const size_t inside = mapping.count_inside();
+  end_progress();
   printf(
       "grid     %d x %d x %d nodes, %zu inside (%.1f %%); %.2f cells walked per node, %lld nodes "
       "searched in bins; mapped in %.2f s\n",
@@ -143,6 +149,7 @@ void map(const Options &o)
   std::vector<double> mark(grid.nodes());
   for (size_t node = 0; node < grid.nodes(); node++) mark[node] = mapping.inside(node);
   for (size_t frame = 0; frame < steps.size(); frame++) {
+    show_progress("writing", 1.0 * frame / steps.size());
     const Field u = input.velocity(steps[frame], o.velocity);
     const auto mapped = mapping.apply(u.values, 3);
     writer.write("velocity", 3, static_cast<int>(frame), mapped);
@@ -157,10 +164,13 @@ void map(const Options &o)
     if (grid.n[2] == 1)
       for (auto &x : walls) x[2] = grid.origin[2];
     const auto q = quality(mapping, mapped, walls);
-    printf("velocity %s, largest %.6g; divergence x spacing / largest: max %.2e, rms %.2e\n"
-           "walls    %zu points; largest velocity there / largest: %.2e\n",
-           u.name.c_str(), q.fastest, q.divergence_max, q.divergence_rms, walls.size(), q.slip);
+    end_progress();
+    printf("velocity %s, largest %.6g; divergence x spacing / largest: max %.2e, rms %.2e\n",
+           u.name.c_str(), q.fastest, q.divergence_max, q.divergence_rms);
+    tell_slip(walls.size(), q);
   }
+  show_progress("writing", 1.0);
+  end_progress();
   printf("written in %.2f s\n", seconds(begin));
   if (o.mesh_walls) {
     const Surface walls = input.wall_surface(input.velocity(steps.back(), o.velocity), o.scale,
@@ -197,10 +207,12 @@ int main(int argc, char **argv)
     else
       map(options);
   } catch (const std::bad_alloc &) {
+    end_progress();
     fprintf(stderr, "flowgrid: %s: there is not enough memory for a grid of this --spacing\n",
             options.output.c_str());
     return 1;
   } catch (const std::exception &error) {
+    end_progress();
     fprintf(stderr, "flowgrid: %s\n", error.what());
     return 1;
   }

@@ -16,6 +16,9 @@ namespace flowgrid {
 // A point that lies less than this beyond a face counts as on it: VTK's reader of OpenFOAM keeps
 // coordinates in single precision.
 constexpr double inside_tolerance = 1e-6;
+// One that rounding alone put beyond a face is on it, so that a wall at rest stays at rest. A node
+// farther out gets the cell's functions as they go on there, which keeps linear fields exact.
+constexpr double on_face = 1e-12;
 
 struct Local {
   double weight[8] = {};    // of the corners
@@ -76,9 +79,8 @@ inline Local in_simplex(const Mesh &mesh, int cell, const double *x)
   }
   for (int k = 0; k <= n; k++) local.beyond[k] = -local.weight[k];
   if (!local.inside(n + 1)) return local;
-  double sum = 0.0;
-  for (int k = 0; k <= n; k++) sum += local.weight[k] = std::max(local.weight[k], 0.0);
-  for (int k = 0; k <= n; k++) local.weight[k] /= sum;
+  for (int k = 0; k <= n; k++)
+    if (std::fabs(local.weight[k]) < on_face) local.weight[k] = 0.0;
   return local;
 }
 
@@ -128,7 +130,7 @@ inline Local in_brick(const Mesh &mesh, int cell, const double *x)
   for (int c = 0; c < n; c++) {
     local.beyond[2 * c] = -p[c] - 1.0;
     local.beyond[2 * c + 1] = p[c] - 1.0;
-    p[c] = std::min(std::max(p[c], -1.0), 1.0);
+    if (std::fabs(std::fabs(p[c]) - 1.0) < on_face) p[c] = std::copysign(1.0, p[c]);
   }
   for (int k = 0; k < shape.corners; k++) {
     double factor[3];

@@ -1,5 +1,7 @@
 #include "isosurface.h"
 
+#include "output_file.h"
+
 #include <vtkCleanPolyData.h>
 #include <vtkContourFilter.h>
 #include <vtkDoubleArray.h>
@@ -13,7 +15,6 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace flowgrid {
 
@@ -51,10 +52,13 @@ long write_isosurface(const std::string &path, const Grid &grid,
   into_fluid->SetInputConnection(triangles->GetOutputPort());
   into_fluid->Update();
 
+  const OutputFile output(path);
   const auto write = [&](auto *writer) {
-    writer->SetFileName(path.c_str());
+    writer->SetFileName(output.while_written().c_str());
     writer->SetInputData(into_fluid->GetOutput());
-    if (!writer->Write()) throw std::runtime_error(path + ": cannot be written");
+    if (!writer->Write() || writer->GetErrorCode())
+      output.fail("cannot be written: is the disk full?");
+    output.keep();
   };
   if (path.size() > 4 && path.compare(path.size() - 4, 4, ".stl") == 0) {
     vtkNew<vtkSTLWriter> writer;

@@ -1,18 +1,24 @@
 #include "level_set.h"
 
+#include "progress.h"
+
 #include <stdexcept>
 
 namespace flowgrid {
 
 namespace {
 
-  template <class Distance> std::vector<double> seeds(const Grid &grid, Distance distance)
+  // stage: of so many, for the progress
+  template <class Distance>
+  std::vector<double> seeds(const Grid &grid, size_t stage, size_t stages, Distance distance)
   {
     std::vector<double> values(grid.nodes());
     size_t node = 0;
     for (int k = 0; k < grid.n[2]; k++)
-      for (int j = 0; j < grid.n[1]; j++)
+      for (int j = 0; j < grid.n[1]; j++) {
+        show_progress("walls", (stage + 1.0 * node / grid.nodes()) / stages);
         for (int i = 0; i < grid.n[0]; i++) values[node++] = distance(grid.node(i, j, k));
+      }
     return values;
   }
 
@@ -54,18 +60,20 @@ LevelSet::LevelSet(const Wall &wall, const Grid &grid, const Periods &periods, d
                    double band)
 {
   const auto lattice = lattice_of(grid);
-  const auto near = seeds(grid, [&](const Point &x) {
+  share_arrays(wall, band);
+  const size_t stages = 1 + list.size();
+  const auto near = seeds(grid, 0, stages, [&](const Point &x) {
     return wall.distance(x, exact);
   });
   for (const double value : near) seeded += !std::isnan(value);
   if (!seeded) throw std::runtime_error("no wall lies within the grid or near it");
   all = fill(grid, periods, near, band);
 
-  share_arrays(wall, band);
   const double tiny = 1e-9 * lattice.spacing[0];
   std::vector<double> least(grid.nodes(), band);
+  size_t stage = 0;
   for (auto &array : list) {
-    const auto known = seeds(grid, [&](const Point &x) {
+    const auto known = seeds(grid, ++stage, stages, [&](const Point &x) {
       double nearest = unknown;
       for (const int piece : array.pieces) {
         const double d = wall.distance(piece, x, exact);
@@ -86,6 +94,7 @@ LevelSet::LevelSet(const Wall &wall, const Grid &grid, const Periods &periods, d
           "the wall cannot be cut into pieces along its concave creases: near " +
           place(grid, node) + "the wall is " + std::to_string(near[node]) +
           " away, its pieces are " + std::to_string(least[node]));
+  show_progress("walls", 1.0);
 }
 
 // A piece joins the first array of its zone all pieces of which are two bands away.

@@ -5,8 +5,7 @@
 #define FLOWGRID_MAPPING_H
 
 #include "finder.h"
-
-#include <functional>
+#include "progress.h"
 
 namespace flowgrid {
 
@@ -23,8 +22,7 @@ struct Grid {
 
 class Mapping {
  public:
-  // progress(share done) is called now and then
-  Mapping(const Mesh &mesh, const Grid &on, const std::function<void(double)> &progress) :
+  Mapping(const Mesh &mesh, const Grid &on) :
       grid(on), source(mesh), cell(on.nodes(), -1), weights(on.nodes())
   {
     Finder finder(mesh);
@@ -45,7 +43,7 @@ class Mapping {
           if (first) row_start = found;
           first = false;
         }
-        progress((node + 0.0) / grid.nodes());
+        show_progress("mapping", 1.0 * node / grid.nodes());
       }
     walked = finder.walked;
     searched = finder.searched;

@@ -12,7 +12,8 @@ struct Quality {
   double divergence_max = 0.0,
          divergence_rms = 0.0;    // of nodes with all neighbours in the fluid,
                                   // times spacing over the fastest       [-]
-  double slip = 0.0;    // largest velocity, interpolated at points of walls, over the fastest  [-]
+  size_t walls_seen = 0;          // points of walls within the grid
+  double slip = 0.0;    // largest velocity, interpolated at these points, over the fastest  [-]
 };
 
 // trilinear interpolation on the grid; false outside of it
@@ -53,7 +54,6 @@ inline Quality quality(const Mapping &map, const std::vector<double> &u,
   const Grid &grid = map.grid;
   for (size_t node = 0; node < grid.nodes(); node++)
     q.fastest = std::max(q.fastest, std::hypot(u[3 * node], u[3 * node + 1], u[3 * node + 2]));
-  if (q.fastest == 0.0) return q;
 
   const size_t stride[3] = {1, static_cast<size_t>(grid.n[0]),
                             static_cast<size_t>(grid.n[0]) * grid.n[1]};
@@ -76,7 +76,7 @@ inline Quality quality(const Mapping &map, const std::vector<double> &u,
             (2.0 * grid.spacing[c]);
     }
     if (!whole) continue;
-    const double scaled = std::fabs(divergence) * smallest / q.fastest;
+    const double scaled = q.fastest > 0.0 ? std::fabs(divergence) * smallest / q.fastest : 0.0;
     q.divergence_max = std::max(q.divergence_max, scaled);
     sum += scaled * scaled;
     count++;
@@ -85,8 +85,9 @@ inline Quality quality(const Mapping &map, const std::vector<double> &u,
 
   for (const auto &x : wall_points) {
     double at[3];
-    if (interpolate(grid, u, x, at))
-      q.slip = std::max(q.slip, std::hypot(at[0], at[1], at[2]) / q.fastest);
+    if (!interpolate(grid, u, x, at)) continue;
+    q.walls_seen++;
+    if (q.fastest > 0.0) q.slip = std::max(q.slip, std::hypot(at[0], at[1], at[2]) / q.fastest);
   }
   return q;
 }

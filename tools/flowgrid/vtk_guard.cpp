@@ -1,11 +1,16 @@
 #include "vtk_guard.h"
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <set>
+#include <vector>
 
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
@@ -14,6 +19,7 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <sys/time.h>
 #include <unistd.h>
 
 namespace flowgrid {
@@ -29,14 +35,23 @@ namespace {
   }
 
   // only what may be called within a handler of signals
-  void name_file()
+  void name_file(const char *what)
   {
     if (!file_read) return;
     say("flowgrid: ");
     say(file_read);
-    say(": VTK failed while it read this file, which is damaged or of a kind that VTK does not "
-        "know\n");
+    say(what);
     _exit(1);
+  }
+  void name_file()
+  {
+    name_file(
+        ": VTK failed while it read this file, which is damaged or of a kind that VTK does not "
+        "know\n");
+  }
+  void answer_time(int)
+  {
+    name_file(": VTK works on this file for far longer than its size is worth; it is damaged\n");
   }
   void answer(int signal)
   {
@@ -105,32 +120,91 @@ namespace {
 
 }    // namespace
 
-// A file of which nothing but its size is known may ask for so much memory: zlib makes no more than
-// 1032 bytes of one. A .vtm and an OpenFOAM case have others beside them.
-static rlim_t memory_of(const std::string &file)
-{
-  std::error_code none;
-  const std::filesystem::path path(file);
-  if (!std::filesystem::is_regular_file(path, none) || path.extension() == ".vtm" ||
-      path.extension() == ".foam")
-    return RLIM_INFINITY;
-  return (rlim_t(4) << 30) + 1032 * std::filesystem::file_size(path, none);
-}
+namespace {
+
+  namespace fs = std::filesystem;
+
+  // what a .vtm names as file="...", in its first 64 Mbytes
+  std::vector<std::string> files_named_in(const fs::path &path)
+  {
+    std::error_code none;
+    std::string text(std::min<std::uintmax_t>(fs::file_size(path, none), 1 << 26), ' ');
+    std::ifstream(path, std::ios::binary)
+        .read(text.data(), static_cast<std::streamsize>(text.size()));
+    std::vector<std::string> names;
+    for (size_t at = 0; (at = text.find("file=", at)) != std::string::npos;) {
+      const size_t begin = (at += 5) + 1,
+                   end = at < text.size() ? text.find(text[at], begin) : std::string::npos;
+      if (end != std::string::npos) names.push_back(text.substr(begin, end - begin));
+    }
+    return names;
+  }
+
+  // The files that a file consists of, each counted once, though a block may be named many times.
+  class Parts {
+   public:
+    explicit Parts(const fs::path &path) { add(path); }
+    double bytes = 0.0;    // INFINITY if they are not known, as those of an OpenFOAM case
+
+   private:
+    std::vector<fs::path> above;    // those that name the one that is looked at
+    std::set<fs::path> known;
+
+    void add(const fs::path &path)
+    {
+      std::error_code none;
+      if (!fs::is_regular_file(path, none) || path.extension() == ".foam") bytes = INFINITY;
+      if (!std::isfinite(bytes)) return;
+      const fs::path self = fs::canonical(path, none);
+      if (std::find(above.begin(), above.end(), self) != above.end())
+        stop(path, "is a block of itself");
+      if (!known.insert(self).second) return;
+      bytes += static_cast<double>(fs::file_size(path, none));
+      if (path.extension() != ".vtm") return;
+      above.push_back(self);
+      for (const auto &name : files_named_in(path)) {
+        const fs::path other = (path.parent_path() / name).lexically_normal();
+        if (fs::is_regular_file(other, none)) add(other);
+      }
+      above.pop_back();
+    }
+  };
+
+  // Memory for that many bytes of files: zlib makes no more than 1032 bytes of one.
+  rlim_t memory_for(double bytes)
+  {
+    return bytes < 1e15 ? (rlim_t(4) << 30) + 1032 * static_cast<rlim_t>(bytes) : RLIM_INFINITY;
+  }
+
+  // Time of the processor until VTK is held to hang: 50 kbytes a second, where it reads a hundred
+  // times as many.
+  void begin_timer(double bytes)
+  {
+    itimerval timer{};
+    timer.it_value.tv_sec = std::isfinite(bytes) ? static_cast<time_t>(20.0 + bytes / 5e4) : 0;
+    setitimer(ITIMER_PROF, &timer, nullptr);
+  }
+
+}    // namespace
 
 ReadByVtk::ReadByVtk(const std::string &file) : name_before(file_read), limit_before(RLIM_INFINITY)
 {
-  file_read = file.c_str();
   rlimit memory{};
   getrlimit(RLIMIT_DATA, &memory);
   limit_before = memory.rlim_cur;
-  if (limit_before == RLIM_INFINITY) return;    // without guard_against_files(): fuzzers
-  memory.rlim_cur = std::min(memory.rlim_cur, memory_of(file));
-  setrlimit(RLIMIT_DATA, &memory);
+  if (limit_before != RLIM_INFINITY) {    // else without guard_against_files(): fuzzers
+    const double bytes = Parts(file).bytes;
+    memory.rlim_cur = std::min(memory.rlim_cur, memory_for(bytes));
+    setrlimit(RLIMIT_DATA, &memory);
+    if (!name_before) begin_timer(bytes);
+  }
+  file_read = file.c_str();    // from here on nothing throws
 }
 
 ReadByVtk::~ReadByVtk()
 {
   file_read = name_before;
+  if (!name_before) begin_timer(INFINITY);
   rlimit memory{};
   getrlimit(RLIMIT_DATA, &memory);
   memory.rlim_cur = limit_before;
@@ -172,6 +246,8 @@ void guard_against_files()
   action.sa_flags = SA_ONSTACK | SA_RESETHAND;
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     sigaction(signal, &action, nullptr);
+  action.sa_handler = answer_time;
+  sigaction(SIGPROF, &action, nullptr);
 
   const double pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   rlimit memory{};

@@ -23,7 +23,8 @@ void check_cells(const std::string &file, vtkDataSet *set);
 // std::bad_alloc, instead of given until the kernel kills it.
 void guard_against_files();
 
-// Until it is destroyed: notes the file that is read, and bounds the memory that it may ask for.
+// Until it is destroyed: notes the file that is read, and bounds the memory and the time that it
+// may take.
 class ReadByVtk {
  public:
   explicit ReadByVtk(const std::string &file);

@@ -3,6 +3,7 @@
 #ifndef FLOWGRID_VTK_INPUT_H
 #define FLOWGRID_VTK_INPUT_H
 
+#include "field.h"
 #include "surface.h"
 
 #include <memory>
@@ -10,13 +11,6 @@
 #include <vector>
 
 namespace flowgrid {
-
-// a field of the points of the mesh
-struct Field {
-  std::string name;
-  int components = 0;
-  std::vector<double> values;
-};
 
 class VtkInput {
  public:
@@ -45,16 +39,11 @@ class VtkInput {
   std::string file;
   Mesh cells;
   std::vector<double> steps;
-  std::vector<int> walls;    // points of wall patches
 
-  void open(const std::string &solution);
   void read(int step);
-  void read_blocks();
-  void make_mesh();
+  void join_blocks();
   Field field(const std::string &name, int components, const char *what);
   std::vector<double> from_cells(const std::vector<double> &values, int components) const;
-  const std::string &boundary_of(const std::string &name) const;
-  void set_on_patches(Field &field) const;
 };
 
 }    // namespace flowgrid

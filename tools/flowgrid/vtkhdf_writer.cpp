@@ -1,18 +1,17 @@
 #include "vtkhdf_writer.h"
 
 #include <numeric>
-#include <stdexcept>
 
 namespace flowgrid {
 
-VtkhdfWriter::VtkhdfWriter(const std::string &_path, const Grid &_grid,
+VtkhdfWriter::VtkhdfWriter(const std::string &path, const Grid &_grid,
                            const std::vector<double> &times, bool _compress) :
     grid(_grid),
     layers(std::max(_grid.n[2], 2)), frames(static_cast<int>(times.size())), compress(_compress),
-    path(_path)
+    output(path)
 {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  file = H5Fcreate(output.while_written().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   check(file >= 0, "cannot be created");
   root = H5Gcreate2(file, "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   points = H5Gcreate2(root, "PointData", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -64,6 +63,7 @@ void VtkhdfWriter::close()
   const bool good = H5Fclose(file) >= 0;
   file = -1;
   check(good, "cannot be written: is the disk full?");
+  output.keep();
 }
 
 void VtkhdfWriter::write(const std::string &name, int components, int frame,
@@ -158,7 +158,7 @@ void VtkhdfWriter::attribute(hid_t at, const char *name, hid_t type, hsize_t cou
 
 void VtkhdfWriter::check(bool good, const char *what) const
 {
-  if (!good) throw std::runtime_error(path + ": " + what);
+  if (!good) output.fail(what);
 }
 
 }    // namespace flowgrid

@@ -6,6 +6,7 @@
 #define FLOWGRID_VTKHDF_WRITER_H
 
 #include "mapping.h"
+#include "output_file.h"
 
 #include <hdf5.h>
 
@@ -29,14 +30,14 @@ class VtkhdfWriter {
   // wall was given by and its true surface                                           [length]
   void write_distance(const std::string &name, const std::vector<double> &values,
                       double surface_error);
-  // all has been written; an error of the disk is thrown here
+  // all has been written, and the file is there; an error of the disk is thrown here
   void close();
 
  private:
   Grid grid;
   int layers, frames;
   bool compress;
-  std::string path;
+  OutputFile output;
   hid_t file = -1, root = -1, points = -1, offsets = -1;
 
   void attribute(hid_t at, const char *name, hid_t type, hsize_t count, const void *values);

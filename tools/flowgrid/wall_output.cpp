@@ -3,6 +3,7 @@
 #include "facet_wall.h"
 #include "isosurface.h"
 #include "level_set.h"
+#include "progress.h"
 #include "shape_parser.h"
 #include "shape_wall.h"
 #include "surface_input.h"
@@ -55,6 +56,7 @@ namespace {
           wall = std::make_unique<FacetWall>(surface, grid, o.crease * degree, width.band);
         }
       }
+      end_progress();
       printf("%s: %d triangles; %d duplicate and %d degenerate ones removed, %d turned round; "
              "facets bulge by up to %.2e\n",
              what.c_str(), count, done.duplicate, done.degenerate, done.turned, wall->bulge());
@@ -111,6 +113,7 @@ namespace {
       for (const int piece : array.pieces) tell_place(array.name, wall.pieces()[piece], grid);
       const auto q = wall_quality(wall, grid, levels, array, std::max(contact - 0.5 * widest, 0.0),
                                   high, band);
+      end_progress();
       printf("%s: size of slope less 1: max %.2e, rms %.2e; largest error %.2e of distances near "
              "%.3g at %.6g %.6g %.6g (%d points); surface known to %.2e\n",
              array.name.c_str(), q.slope_max, q.slope_rms, q.error, contact, q.error_at[0],
@@ -142,8 +145,10 @@ void write_walls(const Options &o, const Grid &grid, const Surface *mesh, Vtkhdf
     return std::chrono::duration<double>(Clock::now() - begin).count();
   };
   const auto [widest, exact, band] = Widths(o, grid);
+  show_progress("walls", 0.0);
   const auto wall = make_wall(o, grid, mesh);
   const LevelSet levels(*wall, grid, Periods(o.periodic, grid), exact, band);
+  end_progress();
   printf("wall     %zu piece(s) in %zu array(s); %zu nodes of exact distance, up to %.6g; band "
          "%.6g; in %.2f s\n",
          wall->pieces().size(), levels.arrays().size(), levels.exact_nodes(), exact, band,

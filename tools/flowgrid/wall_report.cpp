@@ -1,5 +1,7 @@
 #include "wall_report.h"
 
+#include "progress.h"
+
 #include "../../src/wall/grid_distance.h"
 
 #include <random>
@@ -33,6 +35,7 @@ WallQuality wall_quality(const Wall &wall, const Grid &grid, const LevelSet &lev
   size_t count = 0;
   const size_t step = std::max<size_t>(nodes.size() / most, 1);
   for (size_t n = 0; n < nodes.size(); n += step) {
+    if (count % 1024 == 0) show_progress("checking", 1.0 * n / nodes.size());
     const size_t node = nodes[n];
     Point x = grid.node(static_cast<int>(node % grid.n[0]),
                         static_cast<int>(node / grid.n[0] % grid.n[1]),
@@ -61,6 +64,7 @@ WallQuality wall_quality(const Wall &wall, const Grid &grid, const LevelSet &lev
     q.error_at = x;
   }
   q.slope_rms = std::sqrt(sum / count);
+  show_progress("checking", 1.0);
   return q;
 }
 

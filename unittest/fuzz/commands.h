@@ -33,6 +33,7 @@ inline const std::string pair = "pair_style granular/adhesive\npair_coeff * * jk
 inline const std::string nve = "fix nve all nve/sphere\n";
 inline const std::string air =
     "fix air all flow/field shear x y 1.0 0.0 density 1.2 viscosity 1.8e-1\n";
+inline const std::string floor_below = "fix floor all wall/levelset plane y 0 8 jkr 1e6 0.3 10\n";
 inline const std::string cloud = "fix cloud all flow/concentration 8 8 8 cloud 0.6 every 1\n";
 
 struct Command {
@@ -47,6 +48,10 @@ inline const Command commands[] = {
      1},
     {nve + "pair_style granular/adhesive\n",
      "pair_coeff * * material materials.adhesive silica damping alpha 0.4 sliding 0.3", 1},
+    {nve + "pair_style granular/adhesive\n",
+     "pair_coeff * * jkr 1e6 0.3 10 damping tsuji 0.2 sliding 0.3 bridge 0.01 0.072 20 1e-3 form "
+     "film capillary willett tangential yes inventory 0.5 origin",
+     1},
     {nve + pair,
      "fix wall all wall/levelset plane y 0 8 jkr 1e6 0.3 10 damping alpha 0.3 sliding 0.3 twisting "
      "yes rolling 0.02 0.1 break displacement scale_stiffness 0.5",
@@ -82,6 +87,12 @@ inline const Command commands[] = {
     {pair, "fix nve all nve/sphere/mts collision tolerance 0.01", 4},
     {nve + pair, "compute clumps all aggregate/contact", 3},
     {nve + pair, "compute parts all pair granular/adhesive", 3},
+    {nve + pair + floor_below, "compute dust all wall/deposit floor", 3},
+    {nve + pair + air, "apf_advise speed 0.5 length 1e-3", 1},
+    {nve + pair,
+     "fix lid all wall/levelset plane y 0 NULL jkr 1e6 0.3 10 sliding 0.3 move rotate 4 0 4 0 "
+     "v_zero 0",
+     4},
 };
 
 // lower case; one of them is in every message of APF's own, and many of LAMMPS's
@@ -96,6 +107,8 @@ inline const char *const names[] = {
     "inlet/flow",
     "nve/sphere/mts",
     "aggregate/contact",
+    "wall/deposit",
+    "apf_advise",
     "fix_modify",
     "compute pair",
     "atom type",

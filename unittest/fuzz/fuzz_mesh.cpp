@@ -47,8 +47,7 @@ void map(flowgrid::VtkInput &input)
   flowgrid::Grid grid;
   grid.n = {4, 4, mesh.dim() == 2 ? 1 : 4};
   grid.spacing = {0.3, 0.3, 0.3};
-  const flowgrid::Mapping mapping(mesh, grid, [](double) {
-  });
+  const flowgrid::Mapping mapping(mesh, grid);
   for (const double value : mapping.apply(u.values, 3))
     fuzz::require(std::isfinite(value), "a finite velocity on the grid");
   input.wall_points(u);

@@ -154,6 +154,41 @@ TEST(Advise, has_nothing_to_change_in_a_good_scene)
   EXPECT_NE(advice(sim, "speed 0.2").find("nothing to change"), std::string::npos);
 }
 
+// A strong bridge between soft particles: omega^2 = F / (L m) with F = 4 pi R sigma cos(theta) H at
+// h_min, and the length over which it changes, L = (V / pi R)^(1/2). The pair style's own check of
+// the step says so, too.
+TEST(Advise, bridge_counts_where_it_is_the_stiffest)
+{
+  const double sigma = 20000.0, l = 0.0002, V = l * pi / 6.0;
+  const std::string law = " jkr 1e3 0.25 0 bridge 0.0002 20000 20 0 ";
+  Scene scene;
+  scene.boundary = "f p p";
+  scene.style = "pair_style granular/adhesive\npair_coeff * *" + law +
+      "\nfix w all wall/levelset plane x 0 NULL" + law + "\n";
+  Simulation sim;
+  build(sim, {{3.0, 4.0, 4.0}, {5.0, 4.0, 4.0}}, scene);
+  sim.run("fix nve all nve/sphere\ntimestep 0.001");
+  const std::string text = advice(sim, "speed 1.0");
+  std::vector<double> omegas;
+  for (const bool wall : {false, true}) {
+    const double R = wall ? 0.5 : 0.25, m = wall ? pi / 6.0 : pi / 12.0, h = 1.0e-3 * R;
+    const double H = 1.0 - 1.0 / std::sqrt(1.0 + V / (pi * R * h * h));
+    const double force = 4.0 * pi * R * sigma * std::cos(pi / 9.0) * H;
+    omegas.push_back(std::sqrt(force / (std::sqrt(V / (pi * R)) * m)));
+    const auto row = after(text, wall ? "1 w d 1" : "1 1 d 1 1");
+    ASSERT_EQ(row.size(), COLUMNS) << text;
+    EXPECT_NEAR(row[OMEGA] / omegas.back(), 1.0, 1.0e-3);
+    EXPECT_NEAR(row[STEP] * omegas.back() / 0.3, 1.0, 1.0e-3);
+  }
+  EXPECT_NE(text.find(" bridge "), std::string::npos);
+  const std::string log = log_of(sim, "run 0\n");
+  for (const double omega : omegas) {
+    char number[64];
+    snprintf(number, sizeof(number), "bridge mode of a contact, omega dt = %.3g;", omega * 0.001);
+    EXPECT_NE(log.find(number), std::string::npos) << log;
+  }
+}
+
 // particles announced by an inlet count
 TEST(Advise, before_particles_enter)
 {

@@ -9,16 +9,24 @@ TEST(BridgeStyle, force_and_rupture_on_a_pair_that_is_pulled)
 {
   Liquid water;
   water.mu = 0.7;
-  for (const bool wall : {false, true}) {
+  const std::pair<bool, bool> scenes[] = {
+      {false, false}, {true, false}, {false, true}, {true, true}};
+  for (const auto &[wall, planar] : scenes) {
+    SCOPED_TRACE(testing::Message() << wall << planar);
     Simulation sim;
     Scene scene;
     water.R = wall ? 0.5 : 0.25;
+    const double z = planar ? 0.0 : 4.0;
+    if (planar) {    // spheres there, too: the same forces
+      scene.before = "dimension 2";
+      scene.box = "0 8 0 8 -0.5 0.5";
+    }
     scene.boundary = "f p p";
     scene.style = granular(elastic + (wall ? "" : water.words()));
     if (wall)
       scene.style += "fix w all wall/levelset plane x 0 NULL " + elastic + water.words() + "\n";
     // a pair at x = 4, or the sphere alone at the wall
-    std::vector<Sphere> spheres = {{wall ? 0.4999 : 4.9999, 4.0, 4.0}, {4.0, 4.0, 4.0}};
+    std::vector<Sphere> spheres = {{wall ? 0.4999 : 4.9999, 4.0, z}, {4.0, 4.0, z}};
     if (wall) spheres[1].y = 6.0;
     build(sim, spheres, scene);
     sim.run("timestep 1.0e-13\ncompute b all aggregate/contact\nrun 0");
@@ -37,6 +45,13 @@ TEST(BridgeStyle, force_and_rupture_on_a_pair_that_is_pulled)
     sim.run("set atom 1 vx " + digits(speed) + "\ntimestep 1.0e-9\nrun 0 post no");
     const double viscous = water.k() * std::pow(water.H(last), 2) / last * speed;
     EXPECT_NEAR(sim.value("fx[1]") / -(water.pull(last) + viscous), 1.0, 1e-6);
+    if (wall) {    // by parts, on the wall
+      EXPECT_NEAR(sim.value("f_w[13]") / water.pull(last), 1.0, 1e-10) << "capillary";
+      EXPECT_NEAR(sim.value("f_w[16]") / viscous, 1.0, 1e-6) << "viscous";
+      EXPECT_NEAR(sim.value("f_w[19]") / -water.work(last), 1.0, 1e-5) << "energy";
+      EXPECT_NEAR(sim.value("f_w") / sim.value("f_w[19]"), 1.0, 1e-12) << "nothing else";
+      EXPECT_EQ(sim.value("f_w[14]"), 0.0);
+    }
     sim.run("set atom 1 x " + digits(origin + 0.999 * water.rupture(0.01)) + "\nrun 0 post no");
     EXPECT_LT(sim.value("fx[1]"), -0.1);
     sim.run("set atom 1 x " + digits(origin + 1.001 * water.rupture(0.01)) + "\nrun 0 post no");
@@ -72,6 +87,28 @@ TEST(BridgeStyle, collision_loses_the_work_of_its_hysteresis)
   const double v = std::sqrt(2.0 * lost / water.m) * 0.97;
   EXPECT_LT(rebound(elastic + water.words(), v, 0.011, verlet(2.0e-5), 0.5, 60000), 0.0)
       << "captured";
+}
+
+// Where films make the bridge before the solids touch, the cycle loses the work from there on only.
+TEST(BridgeStyle, collision_of_films_loses_the_work_beyond_their_touch)
+{
+  Liquid water;
+  water.l = 0.06;
+  const std::string law = elastic + water.words() + "form film";
+  const double lost = water.work(water.film_gap());
+  EXPECT_LT(lost, 0.9 * water.work()) << "else the two would not differ";
+  for (const double ratio : {1.05, 1.5}) {
+    const double v = std::sqrt(2.0 * lost / water.m) * ratio;
+    const double out = std::sqrt(v * v - 2.0 * lost / water.m);
+    const int steps = static_cast<int>(1.0 / out / 4.0e-4);
+    EXPECT_NEAR(rebound(law, v, 0.0513, verlet(2.0e-5), 0.5, 20 * steps) / out, 1.0, 0.01)
+        << "verlet";
+    EXPECT_NEAR(rebound(law, v, 0.0513, mts(20, 2.0e-5, "lookahead yes"), 0.5, steps) / out, 1.0,
+                0.01)
+        << "mts";
+  }
+  const double v = std::sqrt(2.0 * lost / water.m) * 0.97;
+  EXPECT_LT(rebound(law, v, 0.0513, verlet(2.0e-5), 0.5, 60000), 0.0) << "captured";
 }
 
 // Davis and Ennis: viscosity captures up to a speed that grows with the logarithm of film thickness

@@ -146,6 +146,8 @@ std::vector<Row> law_errors(const std::string &line, const std::string &command)
       {"bridge 0.01 0.07 60 1e-3 capillary willett", {command, "bridge theta must be <= 50"}},
       {"bridge 0.01 0.07 0 1e-3 inventory 1.1", {command, "inventory share must be in (0, 1]"}},
       {"bridge 0.01 0.07 0 1e-3 wet_gamma 1 6 1 3", {command, "A_f = 3 lies between"}},
+      {"bridge 0.01 0.07 0 1e-3 wet_gamma 1 1 1 5", {command, "A_f must be in [0", "= 4], got 5"}},
+      {"bridge 0.01 0.07 0 1e-3 wet_gamma 0.5 1 1 0", {"x_ratio must be >= 1, got 0.5"}},
 
   };
   for (const auto &row : keywords) table.push_back({"jkr 1e6 0.3 0.01 " + row.input, row.words});

@@ -207,7 +207,8 @@ TEST(FlowFile, leaving_the_grid_is_an_error_or_clamped)
 
 TEST(FlowFile, errors_name_what_is_wrong)
 {
-  const TemporaryFile good("apf_good"), bad("apf_bad"), small("apf_small"), flat("apf_flat");
+  const TemporaryFile good("apf_good"), bad("apf_bad"), small("apf_small"), flat("apf_flat"),
+      half("apf_half"), short_wall("apf_short_wall");
   good.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
     w.field("velocity", 3, parabola);
   });
@@ -220,6 +221,15 @@ TEST(FlowFile, errors_name_what_is_wrong)
   flat.write({3, 3, 1}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
     w.field("velocity", 3, parabola);
   });
+  // extents of another grid, which would not cover the box: the array is what the error is about
+  half.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+    w.integers("WholeExtent", {0, 1, 0, 2, 0, 2});
+  });
+  short_wall.write({3, 3, 2}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+    w.array("distance", {2, 3, 4}, std::vector<double>(24, 1.0));
+  });
   const std::string file = "fix f all flow/field file ";
   const struct {
     std::string input, message, word;
@@ -229,6 +239,13 @@ TEST(FlowFile, errors_name_what_is_wrong)
       {file + bad.path + fluid, "has no point array velocity; it has speed", bad.path},
       {file + small.path + fluid,
        "the grid spans 0 to 9.8 along y and does not cover the box, 0 to 10", small.path},
+      {file + half.path + fluid,
+       "array velocity must have shape [3][3][2][3] (z, y, x, component) as WholeExtent says, got "
+       "[3][3][3][3]",
+       half.path},
+      {file + short_wall.path + fluid,
+       "array distance must have shape [2][3][3] (z, y, x) as WholeExtent says, got [2][3][4]",
+       short_wall.path},
       {file + flat.path + fluid, "3d simulations need 2 or more nodes along z, got 1", flat.path},
       {file + good.path + " density 1", "requires keyword viscosity", ""},
       {file + good.path + " loop", "fix flow/field loop command: missing argument", ""},

@@ -186,6 +186,8 @@ TEST(FlowForces, without_a_per_atom_array_the_motion_is_the_same)
     total[with] = sim.value("f_drag[22]");
     const auto error = sim.error_of("compute sum all reduce sum f_drag[1]");
     EXPECT_EQ(error.empty(), with) << error;
+    EXPECT_EQ(error.find("fix drag does not calculate per-atom values") == std::string::npos, with)
+        << "as the page of the fix says: " << error;
   }
   EXPECT_EQ(v[0], v[1]);
   EXPECT_EQ(total[0], total[1]);
@@ -230,16 +232,42 @@ TEST(FlowForces, groups_of_scattered_atoms_get_what_all_together_get)
 namespace {
 
 // n spheres that do not see each other, mass 1, at kT = 0.5 in a fluid with tau = 1
-std::string cloud(int n)
+struct Cloud {
+  bool planar = false;
+  double fluid_density = 1e-3;
+  std::string keywords;    // of fix flow/force, beyond drag, torque and brownian
+};
+std::string cloud(int n, const Cloud &with = Cloud())
 {
-  return "units lj\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
-         "region box block 0 100 0 100 0 100\ncreate_box 1 box\ncreate_atoms 1 random " +
-      std::to_string(n) +
-      " 99 box\nset type 1 diameter 1.0 density $(6/PI)\npair_style zero 0.1 nocoeff\n"
-      "pair_coeff * *\nneighbor 2.0 bin\nfix move all nve/sphere\n"
+  return std::string("units lj\natom_style sphere\natom_modify map array\n"
+                     "comm_modify vel yes\n") +
+      (with.planar ? "dimension 2\nregion box block 0 100 0 100 -0.5 0.5\n"
+                   : "region box block 0 100 0 100 0 100\n") +
+      "create_box 1 box\ncreate_atoms 1 random " + std::to_string(n) +
+      " 99 box\nset type 1 diameter 1.0 density $(6/PI)\n" +
+      (with.planar ? "set type 1 z 0.0\n" : "") +
+      "pair_style zero 0.1 nocoeff\npair_coeff * *\nneighbor 2.0 bin\nfix move all nve/sphere\n"
       "fix air all flow/field uniform 0 0 0" +
-      properties(1e-3, 1.0 / (3.0 * pi)) +
-      "fix drag all flow/force air drag stokes torque yes brownian 0.5 4711\n";
+      properties(with.fluid_density, 1.0 / (3.0 * pi)) +
+      "fix drag all flow/force air drag stokes torque yes brownian 0.5 4711 " + with.keywords +
+      "\n";
+}
+
+// phi(z) of relaxation.h
+double mean_decay(double z)
+{
+  return -std::expm1(-z) / z;
+}
+// <x^2>/2D after n steps of length h from rest, relaxation time tau. Velocities of mid-steps are
+// v' = e v' + (1 - e) B/k, e = exp(-h/tau), with a half step at the start; each B counts in all
+// steps that follow. For short ones t - 2 tau (1 - e^n) + tau/2 (1 - e^2n), t = n h.
+double wandered(int n, double h, double tau)
+{
+  const double e = std::exp(-h / tau);
+  const double first = (1.0 - std::sqrt(e)) * (1.0 - std::pow(e, n)) / (1.0 - e);
+  double sum = first * first;
+  for (int m = 1; m < n; m++) sum += (1.0 - std::pow(e, m)) * (1.0 - std::pow(e, m));
+  return h * sum;
 }
 
 }    // namespace
@@ -276,12 +304,98 @@ TEST(Brownian, energy_is_that_of_equipartition)
             "compute kin all ke\ncompute rot all erotate/sphere\nthermo_style custom "
             "step c_kin c_rot\n" +
             timestep(z) + "run " + std::to_string(static_cast<int>(6.0 / z) + 3) + "\n");
-    auto phi = [](double y) {
-      return -std::expm1(-y) / y;
-    };
     const double one = 1.5 * 0.5 * 8000.0, sigma = std::sqrt(2.0 / (3.0 * 8000.0));
-    EXPECT_NEAR(sim.value("c_kin") / (one * phi(z)), 1.0, 4.0 * sigma) << z;
-    EXPECT_NEAR(sim.value("c_rot") / (one * phi(z / 0.3)), 1.0, 4.0 * sigma) << z;
+    EXPECT_NEAR(sim.value("c_kin") / (one * mean_decay(z)), 1.0, 4.0 * sigma) << z;
+    EXPECT_NEAR(sim.value("c_rot") / (one * mean_decay(z / 0.3)), 1.0, 4.0 * sigma) << z;
+  }
+}
+
+namespace {
+
+// Mean of the squares of a component and its standard deviation, of n normal numbers, over what is
+// expected: 1 +- sqrt(2/n)
+void expect_mean_square(const std::vector<double> &values, int component, double expected)
+{
+  double sum = 0.0;
+  for (size_t i = component; i < values.size(); i += 3) sum += values[i] * values[i];
+  const double n = values.size() / 3.0;
+  EXPECT_NEAR(sum / (n * expected), 1.0, 4.0 * std::sqrt(2.0 / n)) << "component " << component;
+}
+
+}    // namespace
+
+TEST(Brownian, in_the_plane_nothing_leaves_it)
+{
+  // 4 D t in two directions, kT/2 for each of the three motions that are left; long and short steps
+  const int n = 8000;
+  Cloud plane;
+  plane.planar = true;
+  for (const double z : {0.25, 2.0}) {
+    Simulation sim;
+    const int steps = static_cast<int>(40.0 / z);
+    sim.run(cloud(n, plane) +
+            "compute where all msd com no\nthermo_style custom step c_where[4]\n" + timestep(z) +
+            "run " + std::to_string(steps) + "\n");
+    EXPECT_NEAR(sim.value("c_where[4]") / (2.0 * wandered(steps, z, 1.0)), 1.0,
+                4.0 * std::sqrt(1.0 / n) + 0.002);
+    EXPECT_EQ(sim.value("c_where[3]"), 0.0);
+    const auto v = gather(sim, "v"), omega = gather(sim, "omega");
+    for (int c = 0; c < 2; c++) expect_mean_square(v, c, 0.5 * mean_decay(z));
+    expect_mean_square(omega, 2, 0.5 / 0.1 * mean_decay(z / 0.3));
+    for (int i = 0; i < n; i++) {
+      EXPECT_EQ(v[3 * i + 2], 0.0);
+      EXPECT_EQ(omega[3 * i], 0.0);
+      EXPECT_EQ(omega[3 * i + 1], 0.0);
+    }
+  }
+}
+
+TEST(Brownian, with_added_mass_the_mass_of_equipartition_is_the_effective_one)
+{
+  // (m + m_f/2) v' = -k v + B with <B B> = 2 kT k: <v^2> = kT/(m + m_f/2) per direction, as for a
+  // sphere in an incompressible fluid (R. Zwanzig, M. Bixon, J. Fluid Mech. 69, 21, 1975); it
+  // diffuses with kT/k, whatever its mass, and spins without added mass. Here m_f = m.
+  const double effective = 1.5;
+  const int n = 8000;
+  Cloud heavy;
+  heavy.fluid_density = 6.0 / pi;
+  heavy.keywords = "added_mass yes";
+  for (const double h : {0.3, 3.0}) {
+    Simulation sim;
+    const int steps = static_cast<int>(60.0 / h);
+    sim.run(cloud(n, heavy) +
+            "compute where all msd com no\nthermo_style custom step c_where[4]\n" + timestep(h) +
+            "run " + std::to_string(steps) + "\n");
+    const auto v = gather(sim, "v"), omega = gather(sim, "omega");
+    for (int c = 0; c < 3; c++) {
+      expect_mean_square(v, c, 0.5 / effective * mean_decay(h / effective));
+      expect_mean_square(omega, c, 0.5 / 0.1 * mean_decay(h / 0.3));
+    }
+    EXPECT_NEAR(sim.value("c_where[4]") / (3.0 * wandered(steps, h, effective)), 1.0,
+                4.0 * std::sqrt(2.0 / (3.0 * n)) + 0.002);
+  }
+}
+
+TEST(Brownian, slip_slows_relaxation_and_leaves_equipartition)
+{
+  // Kn = 2 lambda/d = 1: resistances over 1 + 1.257 + 0.4 exp(-1.1) and 1 + 3 1.257; a sphere
+  // diffuses faster by the former, and short steps have kT/2 in each of six motions
+  const double C = 2.257 + 0.4 * std::exp(-1.1), C_spin = 1.0 + 3.0 * 1.257;
+  const int n = 8000;
+  Cloud gas;
+  gas.keywords = "cunningham 0.5";
+  for (const double z : {0.1, 1.0, 6.0}) {
+    Simulation sim;
+    const int steps = static_cast<int>(40.0 / z);
+    sim.run(cloud(n, gas) + "compute where all msd com no\nthermo_style custom step c_where[4]\n" +
+            timestep(z) + "run " + std::to_string(steps) + "\n");
+    const auto v = gather(sim, "v"), omega = gather(sim, "omega");
+    for (int c = 0; c < 3; c++) {
+      expect_mean_square(v, c, 0.5 * mean_decay(z / C));
+      expect_mean_square(omega, c, 0.5 / 0.1 * mean_decay(z / (0.3 * C_spin)));
+    }
+    EXPECT_NEAR(sim.value("c_where[4]") / (3.0 * C * wandered(steps, z, C)), 1.0,
+                4.0 * std::sqrt(2.0 / (3.0 * n)) + 0.002);
   }
 }
 
@@ -434,19 +548,31 @@ TEST(FlowForces, one_warning_counts_the_particles_beyond_a_law)
     return text;
   };
   const auto stokes = warnings("drag stokes", 2.0, 0.5);
-  EXPECT_NE(stokes.find("drag stokes is meant for Re <= 1, 1 particles have more"),
+  EXPECT_NE(stokes.find("drag stokes is meant for Re <= 1, exceeded by 1 of 2 particles"),
             std::string::npos)
       << stokes;
   EXPECT_EQ(stokes.find("WARNING", 1), std::string::npos) << "once in a run";
   const auto schiller = warnings("drag schiller", 900.0, 2.0);
-  EXPECT_NE(schiller.find("schiller is meant for Re <= 800, 1 particles"), std::string::npos)
+  EXPECT_NE(schiller.find("schiller is meant for Re <= 800, exceeded by 1 of 2 particles"),
+            std::string::npos)
       << schiller;
+  const auto hindered = warnings("drag difelice concentration 0.1", 1.1, 0.9);
+  EXPECT_NE(hindered.find("difelice is meant for Re <= 1, exceeded by 1 of 2"), std::string::npos)
+      << hindered;
+  EXPECT_EQ(warnings("drag difelice concentration 0.1", 0.9, 0.0), "");
   EXPECT_EQ(warnings("drag stokes", 0.5, 0.2), "");
   EXPECT_EQ(warnings("drag schiller", 700.0, 2.0), "");
   const auto lift = warnings("drag stokes lift saffman", 0.5, 0.05);
   EXPECT_NE(
-      lift.find("lift saffman is meant for Re <= 1, Re_G <= 1, Re <= sqrt(Re_G), 1 particles"),
+      lift.find(": lift saffman is meant for Re <= 1, Re_G <= 1, Re <= sqrt(Re_G), not met by 1 of "
+                "2 particles"),
       std::string::npos)
       << lift;
+  const auto both = warnings("drag stokes lift saffman", 2.0, 1.5);
+  EXPECT_NE(
+      both.find("step 0: drag stokes is meant for Re <= 1, exceeded by 2 of 2 particles; lift "
+                "saffman is meant"),
+      std::string::npos)
+      << both;
   EXPECT_EQ(warnings("drag stokes lift saffman", 0.05, 0.03), "");
 }

@@ -20,10 +20,8 @@ struct Journey {
   std::vector<double> from = {4.0, 4.0, 4.0}, v = {0.0, 0.0, 0.0};
 };
 
-// positions are relative to the first sphere, velocities to the journey
-State travelled(const Journey &journey, const std::string &integrate, int steps)
+void set_out(Simulation &sim, const Journey &journey)
 {
-  Simulation sim;
   auto spheres = aggregate;
   for (auto &sphere : spheres) {
     sphere.x = snap(sphere.x) + journey.from[0];
@@ -38,6 +36,13 @@ State travelled(const Journey &journey, const std::string &integrate, int steps)
     set_motion(sim, n + 1, {journey.v[0] + s, journey.v[1] - 0.2 * s, journey.v[2] + 0.1 * s},
                {2.0 - n, 0.5 * n, 1.0});
   }
+}
+
+// positions are relative to the first sphere, velocities to the journey
+State travelled(const Journey &journey, const std::string &integrate, int steps)
+{
+  Simulation sim;
+  set_out(sim, journey);
   sim.run("neighbor 0.5 bin\n" + journey.commands + integrate + "run " + std::to_string(steps));
   State state = state_of(sim);
   for (int n = 6; n >= 0; n--)
@@ -117,6 +122,41 @@ TEST(RanksMtsRanks, neighbour_lists_built_often)
   journey.v = {48.0, -32.0, 64.0};
   journey.commands = "neigh_modify delay 0 every 1 check no binsize 2\natom_modify sort 1 1.0\n";
   expect_reference(journey, 1e-7);
+}
+
+// So many contacts that collision steps are taken tile by tile (contact/islands.h), but for
+// aggregates across the box's and the ranks' boundaries: every one moves as one alone does.
+TEST(RanksMtsRanks, each_of_many_aggregates_moves_as_one_alone)
+{
+  constexpr int along = 8, copies = along * along * along, bodies = 7;
+  for (const auto &newton : both)
+    for (const double from : {4.0, 0.25}) {
+      SCOPED_TRACE(newton + " " + digits(from));
+      Journey journey;
+      journey.scene.newton = newton;
+      journey.from = {from, 4.0, 4.0};
+      Simulation sim;
+      set_out(sim, journey);
+      sim.run("replicate 8 8 8\nneighbor 0.5 bin\n" + mts(16) +
+              "compute contacts all contact/atom\ncompute sum all reduce sum c_contacts\n"
+              "thermo_style custom step c_sum\nrun 100");
+      EXPECT_GT(sim.value("c_sum"), 2 * 2500.0);    // tiles take 1000 pairs
+      const State all = state_of(sim);
+      ASSERT_EQ(all.x.size(), 3u * copies * bodies);
+      double x = 0.0, v = 0.0, omega = 0.0;
+      for (int copy = 0; copy < copies; copy++)
+        for (int n = 0; n < 3 * bodies; n++) {
+          const int at = 3 * bodies * copy + n;
+          double d = all.x[at] - all.x[3 * bodies * copy + n % 3] - reference().x[n];
+          d -= 8.0 * std::round(d / 8.0);    // one of another copy may be there
+          x = std::max(x, std::fabs(d));
+          v = std::max(v, std::fabs(all.v[at] - reference().v[n]));
+          omega = std::max(omega, std::fabs(all.omega[at] - reference().omega[n]));
+        }
+      EXPECT_LT(x, 1e-9);
+      EXPECT_LT(v, 1e-8 * largest(reference().v));
+      EXPECT_LT(omega, 1e-8 * largest(reference().omega));
+    }
 }
 
 }    // namespace

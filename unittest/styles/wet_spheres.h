@@ -52,10 +52,15 @@ struct Liquid {
   double work() const    // from contact to rupture at rest
   {
     const double h = hmin * R;
-    return h * pull(0.0) + integral(h, rupture(), [this](double x) {
-             return pull(x);
-           });
+    return h * pull(0.0) + work(h);
   }
+  double work(double from) const    // from > h_min
+  {
+    return integral(from, rupture(), [this](double x) {
+      return pull(x);
+    });
+  }
+  double film_gap() const { return std::cbrt(1.0 + l) - 1.0; }    // where the films of both touch
   double viscous_momentum(double from, double to) const
   {
     return k() * integral(from, to, [this](double x) {

@@ -20,9 +20,6 @@ using namespace flowgrid;
 
 namespace {
 
-const auto quiet = [](double) {
-};
-
 Grid grid_of(std::array<int, 3> n, Point origin, Point spacing)
 {
   Grid grid;
@@ -36,7 +33,7 @@ Grid grid_of(std::array<int, 3> n, Point origin, Point spacing)
 double error(const Mesh &mesh, const Grid &grid, const std::function<double(const Point &)> &f,
              double *share = nullptr)
 {
-  const Mapping map(mesh, grid, quiet);
+  const Mapping map(mesh, grid);
   std::vector<double> values;
   for (const auto &p : mesh.points) values.push_back(f(p));
   const auto mapped = map.apply(values, 1);
@@ -69,6 +66,42 @@ TEST(Mapping, linear_fields_are_exact_on_distorted_blocks)
   const Grid plane = grid_of({41, 21, 1}, {0.0, 0.0, 0.0}, {0.05, 0.05, 1.0});
   EXPECT_LT(error(two_blocks(6, true), plane, linear, &share), 1e-12);
   EXPECT_EQ(share, 1.0);
+}
+
+TEST(Mapping, linear_fields_are_exact_at_nodes_that_rounding_puts_outside)
+{
+  // by less than 1e-6 of half a cell: such nodes are inside, and the cell's functions go on
+  for (const bool flat : {false, true})
+    for (const double beyond : {2e-8, -2e-8}) {
+      double share;
+      const Grid grid = grid_of({41, 21, flat ? 1 : 17}, {-beyond, beyond, flat ? 0.0 : -beyond},
+                                {0.05 * (1 + 1e-9), 0.05, 0.0625});
+      EXPECT_LT(error(two_blocks(6, flat), grid, linear, &share), 1e-13);
+      EXPECT_EQ(share, 1.0);
+    }
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.add(Shape::TETRA, {0, 1, 2, 3});
+  mesh.link();
+  EXPECT_LT(error(mesh, grid_of({2, 2, 2}, {-5e-7, -5e-7, -5e-7}, {0.3, 0.3, 0.3}), linear), 1e-14);
+}
+
+TEST(Mapping, divergence_of_a_linear_field_without_any_is_rounding)
+{
+  // in the plane and in space, on a mesh in single precision
+  for (const bool flat : {false, true}) {
+    Mesh mesh = two_blocks(6, flat);
+    std::vector<double> u;
+    for (auto &p : mesh.points) {
+      for (double &x : p) x = static_cast<float>(x);
+      u.insert(u.end(), {0.7 * p[0] + p[1], -0.7 * p[1] - p[2] + p[0], 0.3 * p[0]});
+    }
+    const Grid grid =
+        grid_of({41, 21, flat ? 1 : 21}, {0.0, 0.0, 0.0}, {0.05, 0.05, flat ? 1.0 : 0.05});
+    const Mapping map(mesh, grid);
+    EXPECT_EQ(map.count_inside(), grid.nodes());
+    EXPECT_LT(quality(map, map.apply(u, 3), {}).divergence_max, 1e-14);
+  }
 }
 
 TEST(Mapping, smooth_fields_are_of_second_order)
@@ -153,7 +186,7 @@ TEST(Finder, agrees_with_the_locator_of_vtk)
 TEST(Finder, walks_a_few_cells_from_node_to_node)
 {
   const Mesh mesh = two_blocks(20, false);
-  const Mapping map(mesh, grid_of({101, 51, 51}, {0, 0, 0}, {0.02, 0.02, 0.02}), quiet);
+  const Mapping map(mesh, grid_of({101, 51, 51}, {0, 0, 0}, {0.02, 0.02, 0.02}));
   EXPECT_EQ(map.count_inside(), map.grid.nodes());
   EXPECT_LT(static_cast<double>(map.walked) / map.grid.nodes(), 3.0);
   EXPECT_GE(static_cast<double>(map.walked) / map.grid.nodes(), 0.99);
@@ -164,7 +197,7 @@ TEST(Report, divergence_and_slip_are_those_of_the_field)
 {
   const Mesh mesh = two_blocks(4, true);
   const Grid grid = grid_of({41, 21, 1}, {0.0, 0.0, 0.0}, {0.05, 0.05, 1.0});
-  const Mapping map(mesh, grid, quiet);
+  const Mapping map(mesh, grid);
   std::vector<double> u;
   for (int j = 0; j < 21; j++)
     for (int i = 0; i < 41; i++) {
@@ -177,4 +210,6 @@ TEST(Report, divergence_and_slip_are_those_of_the_field)
   EXPECT_NEAR(q.divergence_max, 0.5 * 0.05 / fastest, 1e-12);
   EXPECT_NEAR(q.divergence_rms, 0.5 * 0.05 / fastest, 1e-12);
   EXPECT_NEAR(q.slip, 1.025 / fastest, 1e-12);
+  EXPECT_EQ(q.walls_seen, 2u);
+  EXPECT_EQ(quality(map, u, {{1.025, -0.1, 0.0}, {3.0, 0.5, 0.0}}).walls_seen, 0u);
 }

@@ -392,6 +392,64 @@ TEST(Program, poiseuille_flow_of_openfoam)
   }
 }
 
+TEST(Program, slip_is_not_reported_where_no_wall_is_known)
+{
+  const Folder folder;
+  vtkNew<vtkXMLStructuredGridWriter> one;
+  one->SetFileName((folder / "one.vts").c_str());
+  one->SetInputData(block(5, 0.0));    // w = 0.25 everywhere
+  one->Write();
+  const std::string out = " " + (folder / "out.vtkhdf") + " ";
+  const struct {
+    std::string words, is;
+  } table[] = {
+      {(folder / "one.vts") + out + "--spacing 0.1", "no walls known: no patch is one"},
+      {poiseuille + out + "--spacing 0.05 --planar 0.05 --bounds 1 2 0.3 0.7 0 0",
+       "68 points, none of them within the grid"},
+      {poiseuille + out + "--spacing 0.05 --planar 0.05", "68 points; largest velocity there"},
+      {poiseuille + out + "--spacing 0.05 --planar 0.05 --bounds 1 2 0 0.7 0 0",
+       "10 of 68 points; largest velocity there"},
+  };
+  for (const auto &row : table) {
+    const auto run = flowgrid_with(row.words);
+    EXPECT_EQ(run.status, 0) << run.text;
+    EXPECT_NE(run.text.find("walls    " + row.is), std::string::npos) << row.words << run.text;
+    EXPECT_EQ(run.text.find("largest velocity there") != std::string::npos,
+              row.is.find("largest velocity there") != std::string::npos)
+        << run.text;
+  }
+}
+
+TEST(Program, bar_of_every_long_stage_on_a_terminal_only)
+{
+  const Folder folder;
+  const std::string words = poiseuille + " " + (folder / "p.vtkhdf") +
+      " --spacing 0.05 --planar 0.05 --distance --particle 0.1";
+  const auto quiet = flowgrid_with(words);
+  EXPECT_EQ(quiet.status, 0) << quiet.text;
+  EXPECT_EQ(quiet.text.find('\r'), std::string::npos) << quiet.text;
+  EXPECT_EQ(quiet.text.find('#'), std::string::npos) << quiet.text;
+
+  const auto run = flowgrid_on_terminal(words);
+  EXPECT_EQ(run.status, 0) << run.text;
+  for (const std::string stage :
+       {"reading", "cells", "fitting", "mapping", "writing", "walls", "checking"}) {
+    std::vector<int> percents;
+    const std::string head = "\r" + stage + std::string(8 - stage.size(), ' ') + " ";
+    for (size_t at = run.text.find(head); at != std::string::npos; at = run.text.find(head, at + 1))
+      percents.push_back(std::atoi(run.text.c_str() + at + head.size()));
+    ASSERT_GE(percents.size(), 2u) << stage << "\n" << run.text;
+    EXPECT_EQ(percents.back(), 100) << stage;
+    EXPECT_LE(percents.size(), 4u * 101) << stage << " is shown when it has changed";
+  }
+  // the bar is as long as it says, and gone before the report and at the end
+  const size_t full = run.text.find("\rmapping  100 % [" + std::string(40, '#') + "]");
+  ASSERT_NE(full, std::string::npos) << run.text;
+  const std::string erase = "\r\033[K";
+  EXPECT_EQ(run.text.find(erase, full), run.text.find("grid     81 x 21") - erase.size());
+  EXPECT_LT(run.text.rfind('#'), run.text.rfind(erase));
+}
+
 TEST(Program, times_of_a_case_become_a_series)
 {
   const Folder folder;

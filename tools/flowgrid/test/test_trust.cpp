@@ -126,6 +126,63 @@ TEST_F(Trust, names_of_other_files_within_a_file)
                  "blocks.vtm", "");
 }
 
+TEST_F(Trust, a_block_of_itself)
+{
+  const auto block = [](const std::string &name) {
+    return "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\"><vtkMultiBlockDataSet>"
+           "<DataSet index=\"0\" file=\"" +
+        name + "\"/></vtkMultiBlockDataSet></VTKFile>";
+  };
+  expect_refused(run("self.vtm", block("self.vtm")), "self.vtm", "is a block of itself");
+  std::ofstream(folder / "one.vtm") << block("./two.vtm");
+  expect_refused(run("two.vtm", block("one.vtm")), "two.vtm", "is a block of itself");
+}
+
+// As a full disk: no file may grow beyond 8 kbytes. What was there before stays as it was.
+TEST_F(Trust, a_full_disk_costs_nothing)
+{
+  const auto contents = [&](const std::string &name) {
+    std::ifstream in(folder / name, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  const std::string shape = " --bounds -1 1 -1 1 -1 1 --shape 's: sphere(0,0,0, 0.5)'",
+                    full = "trap '' XFSZ; ulimit -f 16;";
+  const auto words = [&](const std::string &out, const std::string &spacing) {
+    return (folder / out) + shape + " --spacing " + spacing;
+  };
+  ASSERT_EQ(flowgrid_with(words("out.vtkhdf", "0.5")).status, 0);
+  const auto before = contents("out.vtkhdf");
+  expect_refused(flowgrid_with(words("out.vtkhdf", "0.1"), full), "out.vtkhdf",
+                 "is the disk full?");
+  EXPECT_EQ(contents("out.vtkhdf"), before);
+
+  // three surfaces in few cells: their triangles need more room than the grid
+  const std::string shells = " --bounds -1 1 -1 1 -1 1 --spacing 0.2 --isosurface " +
+      (folder / "wall.stl") +
+      " --shape 's: union(difference(sphere(0,0,0, 0.9), sphere(0,0,0, 0.65)), sphere(0,0,0, "
+      "0.35))'";
+  ASSERT_EQ(flowgrid_with((folder / "shells.vtkhdf") + shells).status, 0);
+  const auto grid = fs::file_size(folder / "shells.vtkhdf");
+  const auto surface = contents("wall.stl");
+  ASSERT_GT(surface.size(), grid + 1024);
+  expect_refused(flowgrid_with((folder / "other.vtkhdf") + shells,
+                               "trap '' XFSZ; ulimit -f " + std::to_string(grid / 512 + 1) + ";"),
+                 "wall.stl", "is the disk full?");
+  EXPECT_EQ(contents("wall.stl"), surface);
+  EXPECT_FALSE(fs::exists(folder / "other.vtkhdf"));
+  for (const auto &entry : fs::directory_iterator(folder.path))
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
+TEST_F(Trust, output_must_be_a_file)
+{
+  const auto result =
+      flowgrid_with("/dev/full --bounds 0 1 0 1 0 1 --spacing 0.5 --shape 's: disc(0,0, 1)'");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.text.find("/dev/full: is not a file that can be written"), std::string::npos)
+      << result.text;
+}
+
 // CGNS's library ends the program, and knows no name.
 TEST_F(Trust, what_ends_the_program_is_named)
 {
