@@ -436,6 +436,29 @@ TEST(BridgeStyle, film_begins_dry_or_after_a_restart)
   std::remove(file.c_str());
 }
 
+// Two that a bridge alone joins, and one apart.
+TEST(BridgeStyle, aggregates_know_the_atoms_of_bridges)
+{
+  const Liquid water;
+  for (const std::string change : {"delete_atoms group one compress no", "set atom 2 x 4.06"}) {
+    Simulation sim;
+    Scene scene;
+    scene.style = granular(elastic + water.words() + "inventory 0.5");
+    build(sim, {{3.0, 4.0, 4.0}, {3.9999, 4.0, 4.0}, {6.0, 6.0, 6.0}}, scene);
+    sim.run("group one id 1\ncompute b all aggregate/contact\ncompute one one aggregate/contact\n"
+            "compute sum all reduce sum c_one[5] c_one[6]\n"
+            "thermo_style custom step c_sum[1] c_sum[2]\n"
+            "timestep 1.0e-13\nrun 0\nset atom 2 x 4.05\nrun 0");
+    EXPECT_EQ(of_atom(sim, 1, 2), 2.0);
+    EXPECT_EQ(sim.value("c_sum[1]"), 0.0) << "the other one is not in the group";
+    EXPECT_NEAR(sim.value("c_sum[2]") / water.V(), 1.0, 1e-12) << "all liquid of the one";
+    sim.run("run 0\n" + change);
+    EXPECT_NE(sim.error_of("print $(c_b[3])").find("use run 0 first"), std::string::npos) << change;
+    sim.run("run 0");
+    EXPECT_EQ(of_atom(sim, 2, 2), change[0] == 'd' ? 1.0 : 2.0);
+  }
+}
+
 TEST(BridgeStyle, liquid_is_counted_by_pairs_and_walls_or_by_neither)
 {
   const Liquid water;
