@@ -484,8 +484,8 @@ TEST(BridgeStyle, liquid_is_counted_by_pairs_and_walls_or_by_neither)
             std::string::npos);
 }
 
-// Films thicker than their bridge would hold: it forms where it would hold, at the rupture length at
-// rest of the volume that it gets.
+// Films thicker than their bridge would hold: it forms where it would hold, at the rupture length
+// at rest of the volume that it gets.
 TEST(BridgeStyle, films_thicker_than_the_rupture_length_make_bridges)
 {
   Liquid water;
