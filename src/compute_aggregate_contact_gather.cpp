@@ -61,21 +61,24 @@ bool ComputeAggregateContact::keeps_contacts(Pair *pair)
 }
 
 // Contacts know atoms by their numbers. Between runs commands may give atoms and ghosts others; the
-// pairs of the list then do not overlap as it says. Collective.
+// pairs of the lists are then not as far apart as these say. Collective.
 bool ComputeAggregateContact::atoms_have_changed() const
 {
   constexpr double rounding = 1.0e-6;
   const int n = atom->nlocal + atom->nghost;
   int changed = 0;
+  auto look_at = [&](int i, int j, double gap) {
+    changed = changed || i >= n || j >= n;
+    if (changed) return;
+    double d[3];
+    MathExtra::sub3(atom->x[j], atom->x[i], d);
+    const double reach = atom->radius[i] + atom->radius[j];
+    changed = std::fabs(MathExtra::len3(d) - reach - gap) > rounding * reach;
+  };
   for (const auto *list : contact_lists(force->pair))
-    for (int k = 0; k < list->size() && !changed; k++) {
-      const int i = list->i[k], j = list->j[k];
-      if ((changed = i >= n || j >= n)) break;
-      double d[3];
-      MathExtra::sub3(atom->x[j], atom->x[i], d);
-      const double reach = atom->radius[i] + atom->radius[j];
-      changed = std::fabs(reach - MathExtra::len3(d) - list->overlap(k)) > rounding * reach;
-    }
+    for (int k = 0; k < list->size(); k++) look_at(list->i[k], list->j[k], -list->overlap(k));
+  for (const auto *list : extract_all<apf::BridgeList>(force->pair, "bridge_list"))
+    for (int k = 0; k < list->size(); k++) look_at(list->i[k], list->j[k], list->gap(k));
   MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
   return changed;
 }
@@ -109,12 +112,12 @@ void ComputeAggregateContact::gather_contacts()
   for (const auto *list : bridges)
     for (int k = 0; k < list->size(); k++) {
       const int i = list->i[k], j = list->j[k];
+      liquid[i] += list->memory(k).volume_i;
+      liquid[j] += list->memory(k).volume_j;
       if (!label[i] || !label[j]) continue;
       if (!touching.count(pair_of(i, j))) bind(i, j);
       n_bridges[i]++;
       n_bridges[j]++;
-      liquid[i] += list->memory(k).volume_i;
-      liquid[j] += list->memory(k).volume_j;
     }
 
   // newton off: the owner of a ghost has the contact as well and has counted it

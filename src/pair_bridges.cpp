@@ -47,7 +47,8 @@ void PairBridges::add_candidate(int i, int j)
   store->count_anew();
 }
 
-// of the centres, at which a bridge forms; 0 where none does
+// of the centres, at which a bridge forms; 0 where none does. Films may be thicker than their
+// bridge would hold: it forms where it does.
 double PairBridges::forming_distance(int i, int j) const
 {
   const auto &model = pair->coeff_of(i, j).bridge;
@@ -57,7 +58,8 @@ double PairBridges::forming_distance(int i, int j) const
   auto film = [&](int of, double r) {
     return apf::film_thickness(r, model.inventory() ? store->liquid(of) : model.liquid_of(r));
   };
-  return ri + rj + film(i, ri) + film(j, rj);
+  const double hold = model.rupture_at_rest(intake(i, j).volume());
+  return ri + rj + std::min(film(i, ri) + film(j, rj), hold);
 }
 
 int PairBridges::number_of_kind(int i, int j)
@@ -91,9 +93,7 @@ void PairBridges::form(int k, const apf::Approach &approach, double step)
   const double moved = step * approach.closing_speed;
   const double gap = meetings.touch[k] - atom->radius[i] - atom->radius[j];
   if (moved > 0.0 && -approach.gap <= moved) memory.formed = gap;    // else it was there before
-  const auto &model = pair->coeff_of(i, j).bridge;
-  if (gap >= model.rupture_at_rest(memory.volume())) return;    // so little that it would not hold
-  if (model.inventory()) {
+  if (pair->coeff_of(i, j).bridge.inventory()) {
     store->take_liquid(i, memory.volume_i);
     store->take_liquid(j, memory.volume_j);
     unsettled[k] = 1;

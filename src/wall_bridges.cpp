@@ -6,6 +6,7 @@
 #include "fix_contact_history.h"
 #include "fix_wall_levelset.h"
 #include "math_extra.h"
+#include "modify.h"
 #include "particle_checks.h"
 #include "update.h"
 
@@ -22,6 +23,8 @@ WallBridges::WallBridges(LAMMPS *lmp, FixWallLevelset *fix) :
 void WallBridges::parse_film(const char *command, int narg, char **arg, int &iarg)
 {
   if (narg < iarg + 2) utils::missing_cmd_args(FLERR, "fix wall/levelset film", error);
+  if (!utils::is_double(arg[iarg + 1]))
+    error->all(FLERR, iarg + 1, "{} film must be a number, got {}", command, arg[iarg + 1]);
   first_film = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
   if (!(first_film >= 0.0))
     error->all(FLERR, iarg + 1, "{} film must be >= 0, got {}", command, arg[iarg + 1]);
@@ -43,10 +46,32 @@ void WallBridges::init()
   choice.include(model);
   kernel = apf::bridge_kernel(choice);
   frozen_bits = frozen_groups(lmp);
-  if (model.inventory() && !(wall->lender && wall->lender->keeps_liquid()))
+  check_inventory();
+}
+
+// Liquid is either of the bodies, everywhere, or made and lost with bridges, everywhere.
+void WallBridges::check_inventory() const
+{
+  const bool wanted = wall->coefficient.bridge.inventory();
+  const FixContactHistory *keeper = nullptr;
+  for (const auto &fix : modify->get_fix_by_style("^contact/history")) {
+    const auto *history = dynamic_cast<FixContactHistory *>(fix);
+    if (history->keeps_liquid()) keeper = history;
+  }
+  if (wanted && !keeper)
     error->all(FLERR, Error::NOLASTLINE,
                "Fix wall/levelset {} keyword inventory needs a pair style granular/adhesive with "
                "keyword inventory, which keeps the liquid of the particles",
+               wall->id);
+  if (keeper && !wanted)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix wall/levelset {} keyword bridge needs keyword inventory, as the pair style has "
+               "it: else the liquid of the bridges would come from nowhere",
+               wall->id);
+  if (wanted && keeper != wall->lender)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix wall/levelset {} keyword inventory needs the level of run_style respa of the "
+               "pair style, which keeps the liquid: remove fix_modify respa",
                wall->id);
 }
 
@@ -97,7 +122,7 @@ double WallBridges::film_at(int i, int surface) const
 }
 
 // Liquid that a new bridge gets: of the particle's, and of the film under the particle.
-apf::BridgeMemory WallBridges::intake(int i, int surface) const
+apf::BridgeMemory WallBridges::intake(int i, double film) const
 {
   const auto &model = wall->coefficient.bridge;
   const double r = atom->radius[i];
@@ -107,7 +132,7 @@ apf::BridgeMemory WallBridges::intake(int i, int surface) const
     return memory;
   }
   memory.volume_i = model.intake * wall->lender->liquid(i);
-  memory.volume_j = model.intake * film_at(i, surface) * apf::pi * r * r;
+  memory.volume_j = model.intake * film * apf::pi * r * r;
   const double share = std::min(1.0, model.largest_volume(r) / memory.volume());
   if (share < 1.0) {
     memory.volume_i *= share;
@@ -116,13 +141,15 @@ apf::BridgeMemory WallBridges::intake(int i, int surface) const
   return memory;
 }
 
+// Films may be thicker than their bridge would hold: it forms where it does.
 double WallBridges::forming_distance(int i, double film) const
 {
   const auto &model = wall->coefficient.bridge;
   const double r = atom->radius[i];
   if (model.forming == apf::Forming::contact) return r;
-  return r + film +
-      apf::film_thickness(r, model.inventory() ? wall->lender->liquid(i) : model.liquid_of(r));
+  const double own = model.inventory() ? wall->lender->liquid(i) : model.liquid_of(r);
+  const double hold = model.rupture_at_rest(intake(i, film).volume());
+  return r + std::min(film + apf::film_thickness(r, own), hold);
 }
 
 int WallBridges::number_of_kind(int i, int surface)
@@ -150,13 +177,11 @@ void WallBridges::try_to_form(int i, int surface, double step)
   wall->particles().position(i, x);
   const auto foot = wall->foot_of(surface, x);
   if (foot.distance > forming_distance(i, thickest_film)) return;
-  const double at = forming_distance(i, film_at(i, surface)), gap = at - atom->radius[i];
-  auto memory = intake(i, surface);
-  const double volume = memory.volume();
-  if (foot.distance > at || volume == 0.0) return;
-  if (gap >= wall->coefficient.bridge.rupture_at_rest(volume)) return;
+  const double film = film_at(i, surface), at = forming_distance(i, film);
+  auto memory = intake(i, film);
+  if (foot.distance > at || memory.volume() == 0.0) return;
   const double moved = step * wall->approach_of(i, foot).closing_speed;
-  if (moved > 0.0 && at - foot.distance <= moved) memory.formed = gap;
+  if (moved > 0.0 && at - foot.distance <= moved) memory.formed = at - atom->radius[i];
   if (wall->coefficient.bridge.inventory()) {
     wall->lender->take_liquid(i, memory.volume_i);
     if (memory.volume_j > 0.0) wall->ledger.liquid[wall->zone_of(i, surface)] -= memory.volume_j;
@@ -333,7 +358,7 @@ void WallBridges::find_stiffest(apf::Stiffest &stiffest)
     list.find_stiffest(r, stiffest);
   });
   for (const auto &place : near) {
-    const double volume = intake(place.i, place.surface).volume();
+    const double volume = intake(place.i, film_at(place.i, place.surface)).volume();
     if (volume == 0.0) continue;
     const int kind = number_of_kind(place.i, place.surface);
     const auto mode = apf::capillary_mode(list.constants(kind, volume));

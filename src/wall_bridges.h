@@ -76,9 +76,10 @@ class WallBridges : protected Pointers {
   std::vector<double> films;    // of each zone, at the last particle step; empty if it gives none
   double thickest_film = 0.0;
 
+  void check_inventory() const;
   double film_at(int i, int surface) const;
   double forming_distance(int i, double film) const;    // of the centre to the wall
-  apf::BridgeMemory intake(int i, int surface) const;
+  apf::BridgeMemory intake(int i, double film) const;
   void try_to_form(int i, int surface, double step);
   int number_of_kind(int i, int surface);    // in list.kinds
   void add(int i, int surface, const apf::BridgeMemory &, bool is_new);

@@ -64,6 +64,7 @@ APF_INLINE int all_blocks(BridgeList &list, Bodies &bodies, ContactTimes times, 
     const auto out = bridge_law<Frame, viscous, fitted, tangential>(
         constants.of(list.kinds, members.kind), volume_of<fitted>(list, first), in, state, times);
     scatter<tangential>(members, out);
+    out.gap.store(block.gap + at);
     out.ended.store(block.ended + at);
     ended = ended + out.ended;
     if constexpr (reports)

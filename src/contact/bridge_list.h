@@ -82,7 +82,7 @@ class BridgeList {
     Lanes b, rupture, inv_drag_min;    // of BridgeVolumeOf
     Lanes mass;                        // that others leave to this one
     Lanes formed, touching;            // of BridgeState
-    Lanes ended;                       // of BridgeOutput
+    Lanes gap, ended;                  // of BridgeOutput
   };
   struct alignas(64) FitBlock {
     Lanes f1, f2, f3, f4, fit_scale;
@@ -154,6 +154,7 @@ class BridgeList {
     return {c, BridgeConstants::filled(kinds[kind_of].liquid, c, volume)};
   }
   const BridgeMemory &memory(int k) const { return memories[k]; }
+  double gap(int k) const { return blocks[k / width].gap[k % width]; }             // at last forces
   bool ended(int k) const { return blocks[k / width].ended[k % width] != 0.0; }    // at last forces
   // the effective mass that other contacts and bridges of the two bodies leave to this one
   void set_mass(int k, double mass) { lane(k, &Block::mass) = mass; }

@@ -24,6 +24,7 @@ const std::vector<Sphere> lump = {{0.0, 0.0, 0.0},    {0.995, 0.0, 0.0}, {0.49, 
 
 struct Trip {
   std::string law = sticky, integrate, commands, newton = "on", processors = "* * *";
+  std::string wall, boundary = "p p p";
   std::vector<double> from = {4.0, 4.0, 4.0}, v = {0.0, 0.0, 0.0};
   int steps = 100;
   bool restart = false;
@@ -40,9 +41,10 @@ State travelled(const Trip &trip)
   Scene scene;
   scene.newton = trip.newton;
   scene.processors = trip.processors;
+  scene.boundary = trip.boundary;
   scene.style = granular(trip.law);
   const int n = static_cast<int>(lump.size());
-  const std::string rest = "neighbor 0.6 bin\n" + trip.commands + trip.integrate;
+  const std::string rest = "neighbor 0.6 bin\n" + trip.wall + trip.commands + trip.integrate;
   const std::string file = scratch_file("lump.restart");
   State state;
   {
@@ -118,6 +120,40 @@ TEST(RanksBridge, lump_under_respa_equals_verlet)
   Trip trip;
   trip.integrate = verlet(16.0 * dt) + "run_style respa 2 16 pair 1\n";
   expect_same(travelled(trip), reference(), 1e-9);
+}
+
+// The lowest sphere comes to a wall, 0.01 below it, and others follow. Contacts share the mass of a
+// particle, and bridges its liquid, anew once in a particle step: fix nve/sphere/mts differs by
+// that.
+TEST(RanksBridge, lump_on_a_wall_is_the_same_under_verlet_respa_mts_and_after_a_restart)
+{
+  for (const std::string liquid : {"", "inventory 0.3 form film "}) {
+    Trip trip;
+    trip.law = sticky + liquid;
+    trip.wall = "fix w all wall/levelset plane y 2.79 NULL " + trip.law + "\n";
+    trip.boundary = "p f p";
+    trip.integrate = verlet(dt);
+    trip.steps = 1600;
+    const State at_wall = travelled(trip);
+    EXPECT_GT(std::fabs(at_wall.v[13] - reference().v[13]), 0.1) << "the wall acts";
+    const std::string respa = verlet(16.0 * dt) + "run_style respa 2 16 pair 1\n";
+    struct {
+      std::string integrate;
+      int steps;
+      double tolerance;
+    } cases[] = {{verlet(dt), 1600, 1e-9},
+                 {respa, 100, 1e-9},
+                 {mts(1), 1600, 1e-9},
+                 {mts(16), 100, liquid.empty() ? 1e-3 : 1e-2}};
+    for (const auto &[integrate, steps, tolerance] : cases)
+      for (const bool restart : {false, true}) {
+        SCOPED_TRACE(liquid + integrate + (restart ? "restart" : ""));
+        trip.integrate = integrate;
+        trip.steps = steps;
+        trip.restart = restart;
+        expect_same(travelled(trip), at_wall, tolerance);
+      }
+  }
 }
 
 TEST(RanksBridge, restart_goes_on)
@@ -371,6 +407,8 @@ TEST(BridgeStyle, film_of_a_wall_gives_and_takes)
   const std::string fix = "fix v all wall/levelset plane x 0 NULL " + elastic + water.words();
   EXPECT_NE(sim.error_of(fix + "film 0.01").find("needs a law with keyword inventory"),
             std::string::npos);
+  EXPECT_NE(sim.error_of(fix + "inventory 0.5 film thick").find("film must be a number"),
+            std::string::npos);
   EXPECT_NE(sim.error_of(fix + "inventory 0.5 film -1").find("must be >= 0, got -1"),
             std::string::npos);
 }
@@ -402,6 +440,91 @@ TEST(BridgeStyle, film_begins_dry_or_after_a_restart)
           " film 0.01\nrun 0");
   EXPECT_NEAR(sim.value("f_w[12]") / (got + 0.64), 1.0, 1e-12);
   std::remove(file.c_str());
+}
+
+// Two that a bridge alone joins, and one apart.
+TEST(BridgeStyle, aggregates_know_the_atoms_of_bridges)
+{
+  const Liquid water;
+  for (const std::string change : {"delete_atoms group one compress no", "set atom 2 x 4.06"}) {
+    Simulation sim;
+    Scene scene;
+    scene.style = granular(elastic + water.words() + "inventory 0.5");
+    build(sim, {{3.0, 4.0, 4.0}, {3.9999, 4.0, 4.0}, {6.0, 6.0, 6.0}}, scene);
+    sim.run("group one id 1\ncompute b all aggregate/contact\ncompute one one aggregate/contact\n"
+            "compute sum all reduce sum c_one[5] c_one[6]\n"
+            "thermo_style custom step c_sum[1] c_sum[2]\n"
+            "timestep 1.0e-13\nrun 0\nset atom 2 x 4.05\nrun 0");
+    EXPECT_EQ(of_atom(sim, 1, 2), 2.0);
+    EXPECT_EQ(sim.value("c_sum[1]"), 0.0) << "the other one is not in the group";
+    EXPECT_NEAR(sim.value("c_sum[2]") / water.V(), 1.0, 1e-12) << "all liquid of the one";
+    sim.run("run 0\n" + change);
+    EXPECT_NE(sim.error_of("print $(c_b[3])").find("use run 0 first"), std::string::npos) << change;
+    sim.run("run 0");
+    EXPECT_EQ(of_atom(sim, 2, 2), change[0] == 'd' ? 1.0 : 2.0);
+  }
+}
+
+TEST(BridgeStyle, liquid_is_counted_by_pairs_and_walls_or_by_neither)
+{
+  const Liquid water;
+  const std::string wet = elastic + water.words(), counted = wet + "inventory 0.5 ";
+  const auto error = [](const std::string &pair, const std::string &wall, const std::string &more) {
+    Simulation sim;
+    Scene scene;
+    scene.boundary = "f p p";
+    scene.style = granular(pair) + "fix w all wall/levelset plane x 0 NULL " + wall + "\n";
+    build(sim, {{2.0, 4.0, 4.0}}, scene);
+    return sim.error_of(more + "run 0");
+  };
+  EXPECT_EQ(error(wet, wet, ""), "");
+  EXPECT_EQ(error(elastic, wet, ""), "");
+  EXPECT_EQ(error(counted, elastic, ""), "") << "a wall without bridges";
+  EXPECT_EQ(error(counted, counted, "run_style respa 2 4 pair 1\n"), "");
+  EXPECT_NE(error(wet, counted, "").find("w keyword inventory needs a pair style"),
+            std::string::npos);
+  EXPECT_NE(error(counted, wet, "").find("w keyword bridge needs keyword inventory"),
+            std::string::npos);
+  EXPECT_NE(error(counted, counted, "fix_modify w respa 2\nrun_style respa 2 4 pair 1\n")
+                .find("w keyword inventory needs the level"),
+            std::string::npos);
+}
+
+// Films thicker than their bridge would hold: it forms where it would hold, at the rupture length
+// at rest of the volume that it gets.
+TEST(BridgeStyle, films_thicker_than_the_rupture_length_make_bridges)
+{
+  Liquid water;
+  for (const bool wall : {true, false}) {
+    // a wall's film of 0.2, of which a bridge takes 2 l pi d^3/6; a share of 1e-6 of the spheres'
+    water.l = wall ? 0.001 : 0.01;
+    water.R = wall ? 0.5 : 0.25;
+    const std::string law =
+        elastic + water.words() + "form film inventory " + (wall ? "0.5 " : "1e-6 ");
+    const double films = wall ? 0.2 : water.film_gap();
+    const double longest =
+        (1.0 + 0.5 * water.angle()) * std::cbrt((wall ? 2.0 : 2.0e-6) * water.V());
+    EXPECT_LT(longest, 0.8 * films);
+    for (const bool sub_steps : {false, true}) {
+      SCOPED_TRACE(testing::Message() << wall << sub_steps);
+      Simulation sim;
+      Scene scene;
+      scene.boundary = "f p p";
+      scene.style = granular(law);
+      if (wall) scene.style += "fix w all wall/levelset plane x 0 NULL " + law + "film 0.2\n";
+      // a sphere at the wall, or two
+      std::vector<Sphere> spheres = {{(wall ? 0.5 : 5.0) + 1.1 * longest, 4.0, 4.0}};
+      if (!wall) spheres.push_back({4.0, 4.0, 4.0});
+      build(sim, spheres, scene);
+      const double step = 0.05 * longest;    // 4 of them, and after the second one the bridge
+      set_motion(sim, 1, {-1.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      sim.run("compute b all aggregate/contact\n" +
+              (sub_steps ? mts(8, step / 8.0) : verlet(step)) + "run 1\n");
+      EXPECT_EQ(of_atom(sim, 1, 5), 0.0) << "at 1.05 of the rupture length";
+      sim.run("run 2");
+      EXPECT_EQ(of_atom(sim, 1, 5), 1.0) << "at 0.95 or less";
+    }
+  }
 }
 
 }    // namespace

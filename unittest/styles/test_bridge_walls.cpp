@@ -109,4 +109,48 @@ TEST(BridgeWalls, gaps_must_be_wider_than_particles_with_bridges)
   EXPECT_NE(text.find("where liquid bridges may hold particles"), std::string::npos) << text;
 }
 
+// Fix freeze says that forces do not move a particle: the viscous force of its bridge to a wall is
+// that of the speed at which one of the two is made to move, at steps in which it would be stopped.
+TEST(BridgeWalls, frozen_particle_feels_the_speed_that_it_or_the_wall_is_given)
+{
+  Liquid oil = at_radius(0.5);
+  oil.mu = 0.7;
+  const double speed = 0.01 * oil.sigma / oil.mu, step = 1.0e-3;    // Ca = 0.01
+  const double m = pi / 6.0;
+  EXPECT_GT(oil.pull(0.01) * step / m, 0.2 * speed);
+  for (const bool wall_moves : {false, true})
+    for (const std::string style : {"verlet", "respa 2 4 pair 1", "mts"}) {
+      const bool sub_steps = style == "mts";
+      if (sub_steps && !wall_moves) continue;    // it moves no particles that forces do not
+      SCOPED_TRACE(testing::Message() << wall_moves << style);
+      Simulation sim;
+      Scene scene;
+      scene.boundary = "f p p";
+      scene.style = none + "fix w all wall/levelset plane x 1 NULL " + elastic + oil.words() +
+          (wall_moves ? "move linear " + digits(-speed) + " 0 0\n" : "\n");
+      build(sim, {{1.4999, 4.0, 4.0}}, scene);
+      sim.run(
+          (sub_steps ? mts(4, 0.25 * step) : "run_style " + style + "\ntimestep " + digits(step)) +
+          "\nfix still all freeze\n" +
+          (wall_moves ? "" : "fix pull all move linear " + digits(speed) + " 0 0\n"));
+      double gap = 0.0, last = 0.0;
+      int seen = 0;
+      for (int n = 1; n <= 60; n++) {
+        sim.run("run 10 post no");
+        gap = -0.0001 + 10 * n * step * speed;
+        if (sim.value("f_w[10]") == 0.0) break;
+        last = gap;
+        if (gap < 0.01) continue;
+        seen++;
+        const double viscous = oil.k() * std::pow(oil.H(gap), 2) / gap * speed;
+        EXPECT_NEAR(sim.value("f_w[13]") / oil.pull(gap), 1.0, 1e-9) << gap;
+        EXPECT_NEAR(sim.value("f_w[16]") / viscous, 1.0, 1e-3) << gap;
+      }
+      EXPECT_GT(seen, 20);
+      EXPECT_LE(last, oil.rupture(0.01));
+      EXPECT_GT(gap, oil.rupture(0.01));
+      EXPECT_LT(gap - last, 11.0 * step * speed);
+    }
+}
+
 }    // namespace
