@@ -85,11 +85,12 @@ void FlowGrid::warn_of_doubts() const
                    path);
   for (int axis = 0; axis < lattice.dims; axis++) {
     const double length = domain->boxhi[axis] - domain->boxlo[axis];
-    if (length < few_cells * lattice.spacing[axis])
-      error->warning(FLERR,
-                     "Fix flow/field file {}: the box is {:.4g} long along {}, a small part of a "
-                     "cell, {:.4g}: are the numbers in the file in the units of the input?",
-                     path, length, "xyz"[axis], lattice.spacing[axis]);
+    if (length >= few_cells * lattice.spacing[axis]) continue;
+    error->warning(FLERR,
+                   "Fix flow/field file {}: the box is {:.4g} long along {}, a small part of a "
+                   "cell, {:.4g}: are the numbers in the file in the units of the input?",
+                   path, length, "xyz"[axis], lattice.spacing[axis]);
+    break;    // one axis tells
   }
 }
 
