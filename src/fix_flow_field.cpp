@@ -77,6 +77,24 @@ void FixFlowField::init()
 }
 
 /* ----------------------------------------------------------------------
+   a flow that was forgotten in a run; all who sample it have told so in their init()
+------------------------------------------------------------------------- */
+
+void FixFlowField::setup(int /*vflag*/)
+{
+  const bool has_walls = has_distance() && !modify->get_fix_by_style("^flow/concentration").empty();
+  if (!taken && !has_walls && !warned) {
+    warned = true;
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Fix flow/field {}: no other fix takes this flow, and it does not act on "
+                     "particles by itself; fix flow/force {} makes it do so",
+                     id, id);
+  }
+  taken = false;
+}
+
+/* ----------------------------------------------------------------------
    evaluate variables before the first force of a step, whatever its level
 ------------------------------------------------------------------------- */
 
@@ -143,6 +161,7 @@ double FixFlowField::time() const
 
 void FixFlowField::require(apf::Detail detail)
 {
+  taken = true;
   if (!grid) return;
   grid->require(detail);
   grid->set_time(time());

@@ -25,6 +25,7 @@ class FixFlowField : public Fix {
   ~FixFlowField() override;
   int setmask() override;
   void init() override;
+  void setup(int) override;
   void setup_pre_force(int) override;
   void setup_pre_force_respa(int, int) override;
   void pre_force(int) override;
@@ -73,6 +74,8 @@ class FixFlowField : public Fix {
   bool clamp = false;                      // outside the grid its border goes on
   Speed speed[3];                          // umax | rate | the three components of uniform flow
   bool varies;
+  bool taken = false;     // somebody will sample the flow in this run
+  bool warned = false;    // that nobody does
   bigint evaluated;       // time step of the variables' values, in this run
   double evaluated_at;    // and their time; not a number if there are none yet
   int every = 1;          // time steps of a fluid step

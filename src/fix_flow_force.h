@@ -100,6 +100,7 @@ class FixFlowForce : public FixPerGrid {
   class FixFlowConcentration *find_concentration(int iarg);
   class FixFlowField *find_field(int iarg);
   void check_particles();
+  void warn_of_second_drag();
   void check_other_fixes();
   bool shares_atoms(int bit) const;
   void warn_of_ranges();

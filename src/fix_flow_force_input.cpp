@@ -262,8 +262,29 @@ bool FixFlowForce::shares_atoms(int bit) const
   return all;
 }
 
+void FixFlowForce::warn_of_second_drag()
+{
+  bool later = false;
+  for (const auto &fix : modify->get_fix_by_style("^flow/force")) {
+    const auto *other = dynamic_cast<FixFlowForce *>(fix);
+    if (other && later && shares_atoms(other->groupbit) && comm->me == 0) {
+      error->warning(FLERR,
+                     "Fix flow/force {} and fix {} act on the same particles, which get the drag "
+                     "of both",
+                     id, other->id);
+      if (model.brownian && other->model.brownian && model.seed == other->model.seed)
+        error->warning(FLERR,
+                       "Fix flow/force {} and fix {} have the same brownian seed {}: their random "
+                       "forces are not independent",
+                       id, other->id, model.seed);
+    }
+    later = later || fix == this;
+  }
+}
+
 void FixFlowForce::check_other_fixes()
 {
+  warn_of_second_drag();
   if (model.weight && norm2(model.gravity) > 0.0)
     for (const auto &other : modify->get_fix_by_style("^gravity"))
       if (shares_atoms(other->groupbit) && comm->me == 0)

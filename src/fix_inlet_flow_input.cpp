@@ -276,6 +276,13 @@ void FixInletFlow::check_plane() const
                  command, sign > 0.0 ? "" : "-", axes[dim], position, sign > 0.0 ? "-" : "",
                  axes[dim]);
   }
+  for (const auto &outlet : outlets) {
+    const int axis = outlet.dim;
+    if (!shrinks(axis) && (outlet.position < lo[axis] || outlet.position > hi[axis]))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} outlet {} = {} must lie within the box, which is {} to {}", command,
+                 axes[axis], outlet.position, lo[axis], hi[axis]);
+  }
 
   const auto plane = rectangle();
   for (int k = 0; k < 2; k++) {

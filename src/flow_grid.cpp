@@ -1,6 +1,7 @@
 #include "flow_grid.h"
 
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 
 #include "flow/wall_extension.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 
@@ -60,11 +62,36 @@ FlowGrid::FlowGrid(LAMMPS *lmp, const std::string &path_in, const Options &optio
   if (known_distance)
     attempt([this] {
       distance = nodes_of(file->read("distance", 1, 0, layers()), 1);
+      if (*std::max_element(distance.begin(), distance.end()) <= 0.0)
+        throw std::runtime_error("array distance is > 0 nowhere: it must be so in the fluid");
     });
+  warn_of_doubts();
   if (series()) now = times.front();
   require(detail);
   load(0);
   position = Error::NOLASTLINE;
+}
+
+/* ----------------------------------------------------------------------
+   what can be right, but hardly was meant
+------------------------------------------------------------------------- */
+
+void FlowGrid::warn_of_doubts() const
+{
+  constexpr double few_cells = 0.1;
+  if (comm->me != 0) return;
+  if (options.loop && !series())
+    error->warning(FLERR, "Fix flow/field file {}: the flow is steady, keyword loop has no effect",
+                   path);
+  for (int axis = 0; axis < lattice.dims; axis++) {
+    const double length = domain->boxhi[axis] - domain->boxlo[axis];
+    if (length >= few_cells * lattice.spacing[axis]) continue;
+    error->warning(FLERR,
+                   "Fix flow/field file {}: the box is {:.4g} long along {}, a small part of a "
+                   "cell, {:.4g}: are the numbers in the file in the units of the input?",
+                   path, length, "xyz"[axis], lattice.spacing[axis]);
+    break;    // one axis tells
+  }
 }
 
 /* ----------------------------------------------------------------------

@@ -48,6 +48,7 @@ class FlowGrid : public GridFile {
   int interval = 0;              // frames before and after now
   double now = 0.0, share = 0.0;
 
+  void warn_of_doubts() const;
   void check_repeated(const std::vector<double> &values) const;
   void load(int frame);
 };

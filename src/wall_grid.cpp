@@ -25,8 +25,12 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
                    const std::vector<std::string> &arrays, int largest_pieces, int iarg) :
     GridFile(lmp, command_in, path_in, iarg)
 {
-  make_lattice(false, "");
   choose(arrays, largest_pieces);
+  // before the box is compared with a grid that may not be that of the arrays
+  attempt([this] {
+    for (const auto &piece : pieces) file->check(piece, 1);
+  });
+  make_lattice(false, "");
   size = apf::GridDistance::size(lattice);
   allocate(size * pieces.size());
   reaches.assign(pieces.size(), -std::numeric_limits<double>::infinity());

@@ -1,4 +1,5 @@
 #include "facet_wall.h"
+#include "decimals.h"
 
 #include "union_find.h"
 
@@ -73,8 +74,8 @@ void FacetWall::find_pieces()
         continue;
       told[p] = true;
       const Point &at = surface.points[surface.triangles[t][k]];
-      remarks.push_back("a concave crease of " + list[p].zone + " at " + std::to_string(at[0]) +
-                        " " + std::to_string(at[1]) + " " + std::to_string(at[2]) +
+      remarks.push_back("a concave crease of " + list[p].zone + " at " + text_of(at[0]) + " " +
+                        text_of(at[1]) + " " + text_of(at[2]) +
                         " has the same piece of wall on both sides: particles have one contact "
                         "there");
     }

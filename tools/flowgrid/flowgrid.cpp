@@ -1,6 +1,7 @@
 // flowgrid: maps the flow of a CFD mesh on a Cartesian grid, for fix flow/field file, and the
 // distance to walls, for fix wall/levelset file.
 
+#include "decimals.h"
 #include "mapping.h"
 #include "options.h"
 #include "progress.h"
@@ -24,7 +25,11 @@ namespace {
 // steps of the input that --times chooses
 std::vector<int> choose_times(const Options &o, const std::vector<double> &steps)
 {
-  if (steps.empty()) return {0};
+  if (steps.empty()) {
+    if (o.times.find(':') != std::string::npos)
+      throw std::runtime_error(o.input + ": has no times, --times " + o.times + " is for a series");
+    return {0};
+  }
   if (o.times == "last") return {static_cast<int>(steps.size()) - 1};
   double from = -INFINITY, to = INFINITY;
   if (o.times != "all") {
@@ -38,7 +43,7 @@ std::vector<int> choose_times(const Options &o, const std::vector<double> &steps
     if (steps[k] >= from && steps[k] <= to) chosen.push_back(static_cast<int>(k));
   if (chosen.empty())
     throw std::runtime_error(o.input + ": no time within --times " + o.times + "; there are " +
-                             std::to_string(steps.front()) + " to " + std::to_string(steps.back()));
+                             text_of(steps.front()) + " to " + text_of(steps.back()));
   return chosen;
 }
 
@@ -58,27 +63,26 @@ Grid make_grid(const Options &o, const Point &low, const Point &high, bool flat_
       grid.origin[c] = flat_mesh ? low[2] : o.planar;
       if (!flat_mesh && !o.input.empty() && (o.planar < low[2] || o.planar > high[2]))
         throw std::runtime_error(o.input + ": --planar must lie within the mesh, " +
-                                 std::to_string(low[2]) + " to " + std::to_string(high[2]) +
-                                 ", got " + std::to_string(o.planar));
+                                 text_of(low[2]) + " to " + text_of(high[2]) + ", got " +
+                                 text_of(o.planar));
       continue;
     }
     if (b < low[c] || a > high[c])
-      throw std::runtime_error(o.input + ": --bounds " + std::to_string(a) + " to " +
-                               std::to_string(b) + " along " + std::string(1, "xyz"[c]) +
-                               " miss the mesh, which is " + std::to_string(low[c]) + " to " +
-                               std::to_string(high[c]));
+      throw std::runtime_error(o.input + ": --bounds " + text_of(a) + " to " + text_of(b) +
+                               " along " + std::string(1, "xyz"[c]) + " miss the mesh, which is " +
+                               text_of(low[c]) + " to " + text_of(high[c]));
     const double count = std::floor((b - a) / o.spacing[c] + 1e-6) + 1.0;
     nodes *= count;
     if (!(nodes < 2e9))
       throw std::runtime_error(o.output + ": --spacing is too fine: more than 2e9 nodes");
     if (count < 2.0)
-      throw std::runtime_error(o.output + ": --spacing " + std::to_string(o.spacing[c]) +
-                               " along " + std::string(1, "xyz"[c]) +
-                               " is wider than the bounds, " + std::to_string(b - a));
+      throw std::runtime_error(o.output + ": --spacing " + text_of(o.spacing[c]) + " along " +
+                               std::string(1, "xyz"[c]) + " is wider than the bounds, " +
+                               text_of(b - a));
     if (o.periodic[c] && std::fabs(b - a - (count - 1.0) * o.spacing[c]) > 1e-6 * o.spacing[c])
       throw std::runtime_error(o.output + ": --periodic " + std::string(1, "xyz"[c]) +
                                " needs a --spacing that divides the length of the grid, " +
-                               std::to_string(b - a));
+                               text_of(b - a));
     grid.n[c] = static_cast<int>(count);
     grid.origin[c] = a;
   }
@@ -175,6 +179,10 @@ void map(const Options &o)
   if (o.mesh_walls) {
     const Surface walls = input.wall_surface(input.velocity(steps.back(), o.velocity), o.scale,
                                              strip_half_width(o, grid));
+    if (walls.triangles.empty())
+      throw std::runtime_error(o.input +
+                               ": has no walls for --distance within the grid: no patch "
+                               "is one, and the flow rests nowhere on the border");
     write_walls(o, grid, &walls, writer);
   } else if (o.has_walls())
     write_walls(o, grid, nullptr, writer);

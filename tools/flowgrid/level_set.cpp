@@ -1,4 +1,5 @@
 #include "level_set.h"
+#include "decimals.h"
 
 #include "progress.h"
 
@@ -26,7 +27,7 @@ namespace {
   {
     std::string text;
     for (int c = 0; c < 3; c++) {
-      text += std::to_string(grid.origin[c] + node % grid.n[c] * grid.spacing[c]) + " ";
+      text += text_of(grid.origin[c] + node % grid.n[c] * grid.spacing[c]) + " ";
       node /= grid.n[c];
     }
     return text;
@@ -92,8 +93,8 @@ LevelSet::LevelSet(const Wall &wall, const Grid &grid, const Periods &periods, d
     if (near[node] > 0.0 && least[node] - near[node] > 1e-3 * lattice.spacing[0])
       throw std::runtime_error(
           "the wall cannot be cut into pieces along its concave creases: near " +
-          place(grid, node) + "the wall is " + std::to_string(near[node]) +
-          " away, its pieces are " + std::to_string(least[node]));
+          place(grid, node) + "the wall is " + text_of(near[node]) + " away, its pieces are " +
+          text_of(least[node]));
   show_progress("walls", 1.0);
 }
 

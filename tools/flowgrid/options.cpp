@@ -1,4 +1,5 @@
 #include "options.h"
+#include "decimals.h"
 
 #include <cmath>
 #include <cstdio>
@@ -93,7 +94,7 @@ Options parse(int argc, char **argv)
     } else if (word == "--spacing") {
       o.spacing = numbers(word, is_number(i + 2) ? 3 : 1);
       for (double h : o.spacing)
-        if (!(h > 0.0)) usage("--spacing must be > 0, got " + std::to_string(h));
+        if (!(h > 0.0)) usage("--spacing must be > 0, got " + text_of(h));
       if (o.spacing.size() == 1) o.spacing.resize(3, o.spacing[0]);
     } else if (word == "--bounds") {
       o.bounds = numbers(word, 6);
@@ -154,6 +155,9 @@ Options parse(int argc, char **argv)
   }
   if (o.output.empty() && o.has_walls() && !o.mesh_walls) std::swap(o.input, o.output);
   if (o.output.empty()) usage("INPUT and OUTPUT are needed");
+  // whoever mixes up the names would lose a mesh
+  if (o.output.size() < 7 || o.output.substr(o.output.size() - 7) != ".vtkhdf")
+    usage("OUTPUT must end in .vtkhdf, got " + o.output);
   if (o.input.empty() && o.bounds.empty()) usage("a geometry without a flow needs --bounds");
   if (!o.isosurface.empty() && !o.has_walls())
     usage("--isosurface needs walls: --distance, --shape or --wall-surface");

@@ -1,4 +1,5 @@
 #include "shape_parser.h"
+#include "decimals.h"
 
 #include "polygon.h"
 
@@ -210,7 +211,7 @@ namespace {
     }
     double radius(double value) const
     {
-      if (!(value > 0.0)) stop("a radius must be > 0, got " + std::to_string(value));
+      if (!(value > 0.0)) stop("a radius must be > 0, got " + text_of(value));
       return value;
     }
     int plane(const Point &through, const Point &normal)

@@ -2,6 +2,7 @@
 
 #include "shape_wall.h"
 
+#include "decimals.h"
 #include "nearest_point.h"
 #include "union_find.h"
 
@@ -240,8 +241,7 @@ void ShapeWall::make_pieces(Survey &survey, const Periods &periods)
     if (counts.of[static_cast<int>(Meeting::concave)] && piece[pair.first] == piece[pair.second]) {
       const Point &at = counts.at;
       remarks.push_back("the concave crease of " + list[piece[pair.first]].zone + " at " +
-                        std::to_string(at[0]) + " " + std::to_string(at[1]) + " " +
-                        std::to_string(at[2]) +
+                        text_of(at[0]) + " " + text_of(at[1]) + " " + text_of(at[2]) +
                         " has the same piece of wall on both sides: particles have one contact "
                         "there");
     }

@@ -1,4 +1,5 @@
 #include "surface.h"
+#include "decimals.h"
 
 #include <map>
 #include <set>
@@ -9,9 +10,9 @@ namespace flowgrid {
 
 namespace {
 
-  std::string text_of(const Point &x)
+  std::string written(const Point &x)
   {
-    return std::to_string(x[0]) + " " + std::to_string(x[1]) + " " + std::to_string(x[2]);
+    return text_of(x[0]) + " " + text_of(x[1]) + " " + text_of(x[2]);
   }
 
   double size_of(const Surface &surface)
@@ -138,7 +139,7 @@ namespace {
           const char wanted = same ? !turned[t] : turned[t];
           if (known[next] && turned[next] != wanted)
             throw std::runtime_error("the surface has one side only, near " +
-                                     text_of(surface.points[triangles[t][k]]));
+                                     written(surface.points[triangles[t][k]]));
           if (known[next]) continue;
           known[next] = 1;
           turned[next] = wanted;
@@ -182,7 +183,7 @@ namespace {
     if (open)
       throw std::runtime_error("the surface is not closed: " + std::to_string(open) +
                                " edges within the grid have one triangle only, as at " +
-                               text_of(at));
+                               written(at));
   }
 
 }    // namespace
@@ -215,7 +216,7 @@ std::vector<std::array<int, 3>> neighbors_of(const std::vector<std::array<int, 3
       auto &[other, edge] = place->second;
       if (other < 0)
         throw std::runtime_error("more than two triangles of the surface meet in an edge at " +
-                                 text_of(points[a]));
+                                 written(points[a]));
       result[t][k] = other;
       result[other][edge] = static_cast<int>(t);
       other = -1;

@@ -67,8 +67,10 @@ VtkInput::VtkInput(const std::string &path, const std::vector<std::string> &wall
     if (FoamCase::is_path_of_one(path)) {
       vtk->foam = std::make_unique<FoamCase>(path, wall_names);
       vtk->reader = foam_reader(vtk->foam->folder());
-    } else
+    } else {
+      if (!wall_names.empty()) stop(path, "has no patches, --wall is for OpenFOAM cases");
       vtk->reader = reader_of(path, solution);
+    }
     vtkNew<vtkCallbackCommand> shown;
     shown->SetCallback(show_reading);
     vtk->reader->AddObserver(vtkCommand::ProgressEvent, shown);

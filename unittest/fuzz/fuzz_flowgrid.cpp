@@ -29,7 +29,7 @@ const std::string commands[] = {
     "mesh.vti out.vtkhdf --spacing 0.5 0.5 1 --bounds 0 1 0 2 0 2 --velocity U --pressure p "
     "--times last "
     "--scale 1.0",
-    "mesh.vti out.vtkhdf --spacing 0.5 --planar 1.0 --times 0:1",
+    "mesh.vti out.vtkhdf --spacing 0.5 --planar 1.0 --times all",
     "mesh.vti out.vtkhdf --spacing 0.5 --shape a:cylinder(1,1,0,1,1,2,0.3) --fluid-at 0.1 0.1 0.1",
     "out.vtkhdf --spacing 0.5 --bounds -1 1 -1 1 -1 1 --shape a:sphere(0,0,0,0.6) --exact 0.5 "
     "--band 6 "

@@ -3,10 +3,8 @@
 
 #include "fix.h"
 #include "nodes.h"
-#include "simulation.h"
+#include "scenes.h"
 #include "temporary_file.h"
-
-#include "gtest/gtest.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -208,7 +206,7 @@ TEST(FlowFile, leaving_the_grid_is_an_error_or_clamped)
 TEST(FlowFile, errors_name_what_is_wrong)
 {
   const TemporaryFile good("apf_good"), bad("apf_bad"), small("apf_small"), flat("apf_flat"),
-      half("apf_half"), short_wall("apf_short_wall");
+      half("apf_half"), short_wall("apf_short_wall"), no_fluid("apf_no_fluid");
   good.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
     w.field("velocity", 3, parabola);
   });
@@ -225,6 +223,10 @@ TEST(FlowFile, errors_name_what_is_wrong)
   half.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
     w.field("velocity", 3, parabola);
     w.integers("WholeExtent", {0, 1, 0, 2, 0, 2});
+  });
+  no_fluid.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+    w.array("distance", {3, 3, 3}, std::vector<double>(27, -1.0));
   });
   short_wall.write({3, 3, 2}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
     w.field("velocity", 3, parabola);
@@ -246,6 +248,7 @@ TEST(FlowFile, errors_name_what_is_wrong)
       {file + short_wall.path + fluid,
        "array distance must have shape [2][3][3] (z, y, x) as WholeExtent says, got [2][3][4]",
        short_wall.path},
+      {file + no_fluid.path + fluid, "array distance is > 0 nowhere", no_fluid.path},
       {file + flat.path + fluid, "3d simulations need 2 or more nodes along z, got 1", flat.path},
       {file + good.path + " density 1", "requires keyword viscosity", ""},
       {file + good.path + " loop", "fix flow/field loop command: missing argument", ""},
@@ -275,6 +278,69 @@ TEST(FlowFile, errors_name_what_is_wrong)
     EXPECT_NE(error.find(" " + std::string(row.word.size(), '^')), std::string::npos)
         << row.input << "\ngave: " << error;
   }
+}
+
+// One warning names a flow that nothing takes, whatever the number of runs; forces, inlets and
+// the concentration between the walls of a file take one.
+TEST(FlowFile, a_flow_that_nothing_takes_is_named_once)
+{
+  const TemporaryFile walls("apf_walls");
+  walls.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+    w.field("distance", 1, [](const double *x, double, double *phi) {
+      *phi = std::min(x[1], 10.0 - x[1]);
+    });
+  });
+  const auto warnings = [](const std::string &flow, const std::string &others) {
+    Simulation sim;
+    sim.run(spheres);
+    std::istringstream log(
+        log_of(sim, "fix air all flow/field " + flow + fluid + others + "run 1\nrun 1\n"));
+    std::vector<std::string> found;
+    for (std::string line; std::getline(log, line);)
+      if (line.find("WARNING: Fix flow/field") == 0) found.push_back(line);
+    return found;
+  };
+  const std::string still = "uniform 0 0 0", file = "file " + walls.path,
+                    cells = "fix c all flow/concentration 10 10 10 cloud 1.2\n",
+                    inlet = "fix in all inlet/flow x 0 air number 1 every 100 diameter 0.5 "
+                            "density 1 type 1 seed 7\n";
+  for (const auto &flow : {still, file}) {
+    const auto alone = warnings(flow, "");
+    ASSERT_EQ(alone.size(), 1U) << flow;
+    for (const auto &line : alone)
+      EXPECT_NE(line.find("Fix flow/field air: no other fix takes this flow"), std::string::npos);
+    EXPECT_EQ(warnings(flow, "fix drag all flow/force air drag stokes\n").size(), 0U) << flow;
+  }
+  EXPECT_EQ(warnings(file, inlet).size(), 0U);
+  EXPECT_EQ(warnings(file, cells).size(), 0U);
+  EXPECT_EQ(warnings(still, cells).size(), 1U);
+  // forces of a first run do not count in the next one
+  EXPECT_EQ(warnings(still, "fix drag all flow/force air drag stokes\nrun 1\nunfix drag\n").size(),
+            1U);
+}
+
+TEST(FlowFile, what_was_hardly_meant_gives_a_warning)
+{
+  const TemporaryFile fits("apf_fits"), other_unit("apf_unit");
+  const auto content = [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+  };
+  fits.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, content);
+  other_unit.write({3, 3, 3}, {0, 0, 0}, {101, 5, 101}, content);
+  const auto log = [](const std::string &words) {
+    Simulation sim;
+    sim.run(spheres);
+    return log_of(sim, "fix air all flow/field file " + words + fluid);
+  };
+  EXPECT_EQ(log(fits.path).find("WARNING"), std::string::npos);
+  EXPECT_NE(log(fits.path + " loop yes").find("the flow is steady, keyword loop has no effect"),
+            std::string::npos);
+  const auto text = log(other_unit.path);
+  EXPECT_NE(text.find("the box is 10 long along x, a small part of a cell, 101"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("WARNING"), text.rfind("WARNING"))
+      << "once, of the first such axis: " << text;
 }
 
 TEST(FlowFile, periodic_grids_with_and_without_their_last_layer)

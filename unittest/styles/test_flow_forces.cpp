@@ -513,6 +513,28 @@ TEST(FlowForces, errors_name_what_is_wrong)
   }
 }
 
+TEST(FlowForces, two_drags_on_the_same_particles_give_a_warning)
+{
+  const auto log = [](const std::string &group, const std::string &seed) {
+    Simulation sim;
+    sim.run(sphere() +
+            "create_atoms 1 single 2 2 2\nset atom 2 diameter 1.0 density 1.0\n"
+            "group one id 1\ngroup two id 2\nfix air all flow/field uniform 0 0 0" +
+            properties(1.0, 1.0));
+    return log_of(sim,
+                  "fix a one flow/force air drag stokes brownian 1 7\nfix b " + group +
+                      " flow/force air drag stokes brownian 1 " + seed + "\nrun 0\n");
+  };
+  const std::string both = "Fix flow/force a and fix b act on the same particles",
+                    seeds = "have the same brownian seed 7";
+  const auto same = log("all", "7"), differ = log("all", "8"), apart = log("two", "7");
+  EXPECT_NE(same.find(both), std::string::npos) << same;
+  EXPECT_NE(same.find(seeds), std::string::npos) << same;
+  EXPECT_NE(differ.find(both), std::string::npos) << differ;
+  EXPECT_EQ(differ.find(seeds), std::string::npos) << differ;
+  EXPECT_EQ(apart.find("WARNING: Fix flow/force"), std::string::npos) << apart;
+}
+
 // ---------------------------------------------------------------------- examples
 
 TEST(FlowForces, examples_pass)

@@ -490,6 +490,15 @@ TEST(RanksInlet, dense_inlet_has_no_overlap_across_ranks)
   EXPECT_EQ(sim.value("f_in[1]"), sim.value("f_in[9]") + sim.value("atoms"));
 }
 
+TEST(InletErrors, an_outlet_may_be_the_end_of_the_box)
+{
+  Simulation sim;
+  sim.run(box() + uniform);
+  EXPECT_EQ(sim.error_of("fix in all inlet/flow x 0 air concentration 0.01 diameter 0.5 density 2 "
+                         "type 1 seed 3 outlet x 20\nrun 0"),
+            "");
+}
+
 TEST(InletErrors, name_what_is_wrong)
 {
   struct Row {
@@ -525,6 +534,7 @@ TEST(InletErrors, name_what_is_wrong)
       {"x 0 move" + good + "\nrun 0", "must be of style flow/field, got nve/sphere"},
       {"x 30 air" + good + "\nrun 0", "must lie within the box"},
       {"x 20 air" + good + "\nrun 0", "would leave the box"},
+      {"x 0 air outlet x 20.1" + good + "\nrun 0", "outlet x = 20.1 must lie within the box"},
       {"-x 20 air" + good + "\nrun 0", "does not enter anywhere"},
       {"x 0 air window 0 0.4 NULL NULL" + good + "\nrun 0", "smaller than the window"},
       {"x 0 air window -3 3 NULL NULL" + good + "\nrun 0", "must lie within the box"},

@@ -156,6 +156,33 @@ TEST(WallGridFile, files_that_do_not_fit_are_refused)
             std::string::npos);
 }
 
+// An extent that is not that of the arrays, and whose grid would not cover the box: the arrays are
+// what the error is about.
+TEST(WallGridFile, extents_of_another_grid_are_refused_as_such)
+{
+  const TemporaryFile file("apf_wall");
+  file.write({9, 9, 9}, {0, 0, 0}, {1, 1, 1}, [](VtkhdfWriter &w) {
+    for (const char *name : {"distance_floor", "distance_side"})
+      w.field(name, 1, [](const double *x, double, double *phi) {
+        *phi = x[1];
+      });
+    w.integers("WholeExtent", {0, 7, 0, 8, 0, 8});
+  });
+  Simulation sim;
+  Scene scene;
+  scene.boundary = "f f f";
+  scene.style = none;
+  build(sim, {{3.0, 3.0, 3.0}}, scene);
+  for (const char *name : {"floor", "side"}) {
+    const std::string words = file.path + " array distance_" + name;
+    const std::string text = sim.error_of("fix wall all wall/levelset file " + words + jkr);
+    EXPECT_NE(text.find(std::string("array distance_") + name +
+                        " must have shape [9][9][8] (z, y, x) as WholeExtent says, got [9][9][9]"),
+              std::string::npos)
+        << text;
+  }
+}
+
 // Each array is a zone, named after it, with the area of its surface.
 TEST(WallGridFile, pieces_are_zones)
 {

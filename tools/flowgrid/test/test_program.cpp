@@ -500,8 +500,7 @@ TEST(Program, wrong_input_is_named)
       {(folder / "none.vtu") + out + "--spacing 1", 1, "none.vtu: does not exist"},
       {(folder / "empty.vti") + out + "--spacing 1", 1, "has no array U or velocity"},
       {good + out + "--spacing 1 --velocity W", 1, "there are: U, p"},
-      {good + out + "--spacing 1 --bounds 5 6 0 1 0 1", 1,
-       "5.000000 to 6.000000 along x miss the mesh"},
+      {good + out + "--spacing 1 --bounds 5 6 0 1 0 1", 1, "5 to 6 along x miss the mesh"},
       {good + out + "--spacing 9", 1, "is wider than the bounds"},
       {good + out + "--spacing 1e-9", 1, "more than 2e9 nodes"},
       {good + out + "--spacing 1 --planar 7", 1, "--planar must lie within the mesh"},
@@ -509,6 +508,12 @@ TEST(Program, wrong_input_is_named)
       {(folder / "broken.vtu") + out + "--spacing 1", 1, "cannot be read"},
       {(folder / "nocase") + out + "--spacing 1", 1, "is no OpenFOAM case"},
       {good + " /nowhere/out.vtkhdf --spacing 1", 1, "/nowhere/out.vtkhdf: cannot be created"},
+      {good + out + "--spacing 1 --bounds 5e-7 6e-7 0 1 0 1", 1,
+       "--spacing 1 along x is wider than the bounds, 1e-07"},
+      {good + out + "--spacing 1 --times 0:1", 1, "has no times, --times 0:1 is for a series"},
+      {good + out + "--spacing 1 --distance", 1, "has no walls for --distance"},
+      {good + out + "--spacing 1 --wall roof", 1, "--wall is for OpenFOAM cases"},
+      {good + " " + good + " --spacing 1", 2, "OUTPUT must end in .vtkhdf, got " + good},
       {poiseuille + out + "--spacing 0.1 --wall roof", 1, "has no patch roof"},
   };
   for (const auto &row : rows) {

@@ -176,10 +176,11 @@ TEST_F(Trust, a_full_disk_costs_nothing)
 
 TEST_F(Trust, output_must_be_a_file)
 {
-  const auto result =
-      flowgrid_with("/dev/full --bounds 0 1 0 1 0 1 --spacing 0.5 --shape 's: disc(0,0, 1)'");
+  fs::create_symlink("/dev/full", folder / "full.vtkhdf");
+  const auto result = flowgrid_with(
+      (folder / "full.vtkhdf") + " --bounds 0 1 0 1 0 1 --spacing 0.5 --shape 's: disc(0,0, 1)'");
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.text.find("/dev/full: is not a file that can be written"), std::string::npos)
+  EXPECT_NE(result.text.find("full.vtkhdf: is not a file that can be written"), std::string::npos)
       << result.text;
 }
 
