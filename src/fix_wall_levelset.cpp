@@ -234,7 +234,8 @@ void FixWallLevelset::check_places()
   if (behind.number() > 0)
     error->all(FLERR, Error::NOLASTLINE,
                "{} {}: particles with the centre outside the fluid: {} (IDs {}), up to {:.3g} "
-               "behind the wall; {}",
+               "behind the wall; is the wall where it should be, and the fluid on its right side? "
+               "If so, {}",
                command, id, behind.number(), behind.ids(), behind.deepest(), cure);
   pressed.gather(world);
   if (pressed.number() > 0 && comm->me == 0)
