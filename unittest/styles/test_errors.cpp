@@ -350,8 +350,8 @@ TEST(WallErrors, while_running)
         {"Fix wall/levelset w", "atom 1 passed the wall", "smaller timestep"}}});
 }
 
-// Particles that a script puts into a wall or behind it are named before the first step, the deepest
-// first, whichever rank has them.
+// Particles that a script puts into a wall or behind it are named before the first step, the
+// deepest first, whichever rank has them.
 TEST(RanksWallErrors, particles_in_the_wall)
 {
   std::string row = "region all block 0 10 0 10 0 10\n";
