@@ -25,7 +25,7 @@ void FixWallLevelset::gather(bool follow)
 {
   const int n = contacts.size();
   rows.resize(2 * n);
-  double x[3], kappa[2];
+  double x[3], kappa[2] = {};
   for (int k = 0; k < n; k++) {
     const int i = contacts.source[k], s = surface_of[k];
     const bool turns = follow && !surfaces[s].uniform;

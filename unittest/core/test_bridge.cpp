@@ -62,7 +62,7 @@ struct Cluster {
   std::vector<double> inv_mass;
   BridgeModel liquid;
   BridgeList bridges;
-  double step;
+  double step = 0.0;
   bool first = true;
   int ruptured = 0;
 

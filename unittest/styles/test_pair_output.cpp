@@ -194,7 +194,7 @@ TEST(PairOutput, a_cycle_of_adhesion_costs_what_jkr_says)
 
 // The doublet is loaded by the style's own scene, then the commands; forces as without them?
 State loaded(const std::string &commands, const std::vector<Sphere> &others = {},
-             Scene scene = Scene())
+             const Scene &scene = Scene())
 {
   Simulation sim;
   std::vector<Sphere> spheres = {{3.0, 3.0, 3.0}, {3.99, 3.0, 3.0}};
