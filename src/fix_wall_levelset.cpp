@@ -9,6 +9,7 @@
 #include "fix_contact_history.h"
 #include "force.h"
 #include "modify.h"
+#include "named_atoms.h"
 #include "particle_checks.h"
 #include "respa.h"
 #include "type_sizes.h"
@@ -126,6 +127,7 @@ void FixWallLevelset::check_particles()
 {
   const auto sizes = TypeSizes::find(lmp, command, igroup);
   const double r = sizes.smallest_radius(), m = sizes.smallest_mass();
+  overlap_at_rest = 0.0;
   if (r == 0.0) return;
   for (const auto &surface : surfaces)
     if (surface.shape == apf::Surface::Shape::cylinder && surface.side < 0.0 &&
@@ -140,6 +142,9 @@ void FixWallLevelset::check_particles()
   for (const auto &surface : surfaces) {
     const auto bodies = bodies_at(surface, r, m);
     if (!contact_radii.insert(bodies.R).second) continue;
+    if (coefficient.model.adhesive())
+      overlap_at_rest =
+          std::max(overlap_at_rest, coefficient.model.normal(bodies.R).equilibrium_overlap() / r);
     check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, bodies.R, r);
     if (step_is_given() && m > 0.0)    // LAMMPS's own inserters do not tell the mass
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
@@ -201,8 +206,50 @@ int FixWallLevelset::level() const
 
 /* ---------------------------------------------------------------------- */
 
+// Particles that were put into the wall or behind it: named here, where a run begins, since what
+// comes of them in it looks like something else.
+void FixWallLevelset::check_places()
+{
+  if (rebuild) find_again();
+  constexpr double much = 0.1;    // of the radius
+  NamedAtoms behind, pressed;
+  double space[3];
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const double r = atom->radius[i], *y = in_frame(atom->x[i], space);
+    double least = r;    // distance of the nearest surface that holds no contact yet
+    for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
+      if (!(touched[i] >> s & 1) && !surfaces[s].farther(y, least))
+        least = std::min(least, surfaces[s].distance(y));
+    const double overlap = (r - least) / r;
+    if (least <= 0.0)
+      behind.add(atom->tag[i], -least);
+    else if (overlap > much && overlap > 2.0 * overlap_at_rest)
+      pressed.add(atom->tag[i], overlap);
+  }
+  const char *cure =
+      "let the region of create_atoms end a radius before the wall, or take them out "
+      "with delete_atoms";
+  behind.gather(world);
+  if (behind.number() > 0)
+    error->all(FLERR, Error::NOLASTLINE,
+               "{} {}: particles with the centre outside the fluid: {} (IDs {}), up to {:.3g} "
+               "behind the wall; is the wall where it should be, and the fluid on its right side? "
+               "If so, {}",
+               command, id, behind.number(), behind.ids(), behind.deepest(), cure);
+  pressed.gather(world);
+  if (pressed.number() > 0 && comm->me == 0)
+    error->warning(FLERR,
+                   "{} {}: particles that begin inside the wall and will be shot out of it: {} "
+                   "(IDs {}), up to {:.3g} of their radius deep; {}",
+                   command, id, pressed.number(), pressed.ids(), pressed.deepest(), cure);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FixWallLevelset::setup(int vflag)
 {
+  check_places();
   if (auto *respa = dynamic_cast<Respa *>(update->integrate)) {
     respa->copy_flevel_f(level());
     post_force(vflag);
@@ -213,6 +260,7 @@ void FixWallLevelset::setup(int vflag)
 
 void FixWallLevelset::min_setup(int vflag)
 {
+  check_places();
   post_force(vflag);
 }
 

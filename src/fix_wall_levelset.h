@@ -77,8 +77,9 @@ class FixWallLevelset : public FixContacts {
   std::vector<apf::Surface> surfaces;
   std::unique_ptr<WallGrid> grid;    // where surfaces come from a file
   WallMotion motion;
-  double resolution = 0.05;      // error of a gridded distance in units of delta_C
-  double checked_for[4] = {};    // radii, error, reach of bridges that the grid is good for
+  double resolution = 0.05;        // error of a gridded distance in units of delta_C
+  double overlap_at_rest = 0.0;    // of the smallest particle, in units of its radius
+  double checked_for[4] = {};      // radii, error, reach of bridges that the grid is good for
   ContactCoeff coefficient;
   apf::KernelChoice choice;
   apf::ContactKernel kernel;
@@ -135,6 +136,7 @@ class FixWallLevelset : public FixContacts {
   };
   Nearest nearest(const double *x, Marks of_surfaces) const;
   void check_particles();
+  void check_places();
   void check_reach(double smallest);
   void check_grid(double smallest, double largest);
   double speed_near(const double *x) const;    // of the wall, if it reached there

@@ -98,8 +98,9 @@ void FlowGrid::warn_of_doubts() const
    whether the last layers of periodic directions repeat the first ones
 ------------------------------------------------------------------------- */
 
-void FlowGrid::check_repeated(const std::vector<double> &u) const
+void FlowGrid::check_repeated(const std::vector<double> &u)
 {
+  if (told_of_repeated) return;
   double largest = 0.0, difference[3] = {0.0, 0.0, 0.0};
   for (const double a : u) largest = std::max(largest, std::fabs(a));
   std::size_t node = 0;
@@ -116,11 +117,13 @@ void FlowGrid::check_repeated(const std::vector<double> &u) const
         }
       }
   for (int axis = 0; axis < lattice.dims; axis++)
-    if (comm->me == 0 && difference[axis] > repeat_tolerance * largest)
+    if (comm->me == 0 && difference[axis] > repeat_tolerance * largest) {
+      told_of_repeated = true;
       error->warning(FLERR,
                      "Fix flow/field file {}: velocities of the first and the last layer along "
                      "periodic {} differ by up to {:.3g}; the first one is taken",
                      path, "xyz"[axis], difference[axis]);
+    }
 }
 
 /* ----------------------------------------------------------------------

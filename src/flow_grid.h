@@ -47,9 +47,10 @@ class FlowGrid : public GridFile {
   int frame_in[2] = {-1, -1};    // which frames are in memory: even ones in 0, odd ones in 1
   int interval = 0;              // frames before and after now
   double now = 0.0, share = 0.0;
+  bool told_of_repeated = false;    // a warning of the first frame tells of all
 
   void warn_of_doubts() const;
-  void check_repeated(const std::vector<double> &values) const;
+  void check_repeated(const std::vector<double> &values);
   void load(int frame);
 };
 

@@ -195,9 +195,8 @@ namespace ContactModels {
           stored.end();
         else
           stored.store(mass, memory);
-        // LIGGGHTS keeps the history of contacts with a flag
-        if (contact.contact_flags && ended) *contact.contact_flags &= ~CONTACT_NORMAL_MODEL;
-        if (contact.contact_flags && !ended) *contact.contact_flags |= CONTACT_NORMAL_MODEL;
+        // LIGGGHTS keeps the history of pairs with a flag; that of an ended contact is zeros
+        if (contact.contact_flags) *contact.contact_flags |= CONTACT_NORMAL_MODEL;
       }
       apf::add(out.force, out.torque_i, on_i);
       apf::add(-out.force, out.torque_j, on_j);

@@ -1,5 +1,5 @@
 // LIGGGHTS rolling model `dominik_tielens`: rolling resistance of an adhesive contact
-// (doi:10.1080/01418619508243795), a part of model jkr (normal_model_jkr.h), which does the work.
+// (doi:10.1080/01418619508243800), a part of model jkr (normal_model_jkr.h), which does the work.
 // Here is its history.
 
 #ifdef ROLLING_MODEL

@@ -343,11 +343,46 @@ TEST(WallErrors, while_running)
       {{wall + "plane y 0 10 jkr 100 0 5\nrun 0",
         {"Fix wall/levelset w", "overlap by 1.06", "E 97.3 times", "0.5"}},
        {wall + "plane y 6 NULL jkr 1e6 0.3 0\nrun 0",
-        {"Fix wall/levelset w", "atom 1", "outside the fluid", "1 behind the wall"}},
+        {"Fix wall/levelset w", "outside the fluid: 2 (IDs 1, 2), up to 1 behind the wall"}},
        {wall + "cylinder z 5 5 1 inside jkr 1e6 0.3 0\nrun 0",
-        {"Fix wall/levelset w", "atom 1", "outside the fluid"}},
+        {"Fix wall/levelset w", "outside the fluid: 2 (IDs 1, 2), up to 1 behind"}},
        {wall + "plane y 0 10 jkr 1e-6 0.3 0\nset atom 1 y 9.6 vy 1\ntimestep 0.01\nrun 100",
         {"Fix wall/levelset w", "atom 1 passed the wall", "smaller timestep"}}});
+}
+
+// Particles that a script puts into a wall or behind it are named before the first step, the
+// deepest first, whichever rank has them.
+TEST(RanksWallErrors, particles_in_the_wall)
+{
+  std::string row = "region all block 0 10 0 10 0 10\n";
+  for (int n = 1; n <= 7; n++)
+    row += "create_atoms 1 single " + std::to_string(n) + " 0." + std::to_string(n) + " 2\n";
+  row += "set group all diameter 1.0 density 1.0\npair_style zero 2\npair_coeff * *\n";
+  const std::string wall = "fix w all wall/levelset plane y ", law = " NULL jkr 1e6 0.3 0\n";
+  // atoms 3 to 9 stand at 0.1 to 0.7
+  expect_errors(particles + row,
+                {{wall + "0.75" + law + "run 0",
+                  {"Fix wall/levelset w", "outside the fluid: 7 (IDs 3, 4, 5, 6, 7 and 2 more)",
+                   "up to 0.65 behind the wall", "delete_atoms"}},
+                 {wall + "0.25" + law + "minimize 0 0 1 1",
+                  {"outside the fluid: 2 (IDs 3, 4), up to 0.15 behind"}}});
+}
+
+// Of the radius 0.5: 0.1 is borne in silence, and so is twice what a particle at rest takes.
+TEST(WallWarnings, particles_that_begin_inside_the_wall)
+{
+  const auto log = [](double y, const std::string &law) {
+    return log_of(particles + "pair_style zero 2\npair_coeff * *\nset atom 1 y " +
+                  std::to_string(y) + "\nfix w all wall/levelset plane y 0 NULL " + law +
+                  "\nrun 0");
+  };
+  const std::string words = "begin inside the wall";
+  EXPECT_EQ(log(0.455, "jkr 1e6 0.3 0").find(words), std::string::npos);
+  expect_words(log(0.445, "jkr 1e6 0.3 0"),
+               {"y 0.445", {words, ": 1 (IDs 1), up to 0.11 of their radius", "delete_atoms"}});
+  const std::string soft = "jkr 100 0 0.1";    // overlap at rest 0.078
+  EXPECT_EQ(log(0.5 - 0.5 * 0.15, soft).find(words), std::string::npos);
+  expect_words(log(0.5 - 0.5 * 0.16, soft), {"y 0.42", {words, "up to 0.16 of their radius"}});
 }
 
 // delta_eq = 0.078 r at gamma 0.1: E must be (0.078/0.05)^1.5 = 1.95 times as large

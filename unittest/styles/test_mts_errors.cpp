@@ -136,6 +136,14 @@ TEST(MtsErrors, skin_that_is_too_thin_for_what_it_must_see)
   expect_words(sim.error_of("neighbor 0.045 bin\n" + mts(8) + "run 1"),
                {name, "differ by 100", "approach by 0.0488", "skin of 0.045",
                 "timestep 0.00018 or smaller", "neighbor 0.12 bin or larger"});
+
+  // at rest, with the acceleration a: a step of sqrt(0.4 skin / a)
+  Simulation pushed;
+  build(pushed, {{2.0, 4.0, 4.0}, {6.0, 4.0, 4.0}});
+  const std::string push = "fix push all addforce " + digits(4.0e5 * pi / 6.0) + " 0 0\n";
+  expect_words(pushed.error_of("neighbor 0.045 bin\n" + push + mts(8) + "run 1"),
+               {"differ by 0, and that gain up to 195", "timestep 0.00021 or smaller"});
+  EXPECT_EQ(pushed.error_of("timestep 0.00021\nrun 1"), "");
 }
 
 // Enough for what they can do, not for twice that: the run goes on, looking less far ahead.
