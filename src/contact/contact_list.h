@@ -84,16 +84,8 @@ class ContactList {
   // kind_of: a number of `kinds`
   int add(int body_i, int body_j, int mark, int kind_of, const ContactHistory &h)
   {
-    const int k = size();
-    append(i, body_i);
-    append(j, body_j);
-    append(source, mark);
-    append(kind, kind_of);
+    const int k = append(body_i, body_j, mark, kind_of);
     kinds.use(kind_of);
-    if (k % width == 0) {
-      append(blocks, {});
-      append(space_blocks, {});
-    }
     blocks[k / width].overlap[k % width] = 0.0;
     const auto &c = kinds.constants(kind_of);
     set_crowding(k, c.crowd_mass, c.crowd_roll);
@@ -119,16 +111,7 @@ class ContactList {
   // A contact of another list that has the same kinds; its use of one is not counted.
   void copy(const ContactList &from, int k)
   {
-    const int n = size();
-    append(i, from.i[k]);
-    append(j, from.j[k]);
-    append(source, from.source[k]);
-    append(kind, from.kind[k]);
-    if (n % width == 0) {
-      append(blocks, {});
-      append(space_blocks, {});
-    }
-    take(n, from, k);
+    take(append(from.i[k], from.j[k], from.source[k], from.kind[k]), from, k);
   }
 
   // contact `to` becomes, but for its bodies and kind, what `k` of another list is
@@ -269,6 +252,20 @@ class ContactList {
   {
     if (to.size() == to.capacity()) to.reserve(to.size() + to.size() / 4 + width);
     to.push_back(value);
+  }
+  // room for one more contact; its number
+  int append(int body_i, int body_j, int mark, int kind_of)
+  {
+    const int k = size();
+    append(i, body_i);
+    append(j, body_j);
+    append(source, mark);
+    append(kind, kind_of);
+    if (k % width == 0) {
+      append(blocks, {});
+      append(space_blocks, {});
+    }
+    return k;
   }
   template <class AnyBlock>
   static void take(AnyBlock &to, int lane, const AnyBlock &from, int from_lane)
