@@ -43,6 +43,12 @@ def read_blocks(path):
     return [(block.step, block.rows) for block in apf_read.read_blocks(path)]
 
 
+def memory(log):
+    """The largest resident memory of a rank [MB] that a log tells; empty if none."""
+    found = re.findall(r"^Maximum resident set size: (\S+)", log, re.M)
+    return f"{max(map(float, found)):.0f}" if found else ""
+
+
 class Run:
     """One run: `history` over the times `t`, blocks of other files, what it cost."""
 
@@ -91,7 +97,6 @@ class Run:
         loops = np.array(re.findall(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps(?s:.*?)^ *(\S+)% CPU use",
                                     text, re.M), dtype=float).reshape(-1, 4)
         seconds, ranks, steps, share = loops[loops[:, 2] > 0].T
-        memory = re.findall(r"^Maximum resident set size: (\S+)", text, re.M)
         row = {"run": self.path.stem, "t": f"{self.t[-1]:g}", "ranks": "", **dict.fromkeys(COSTS, "")}
         if len(steps):
             scale = (self.history["step"][-1] - self.history["step"][0]) / steps.sum()
@@ -99,8 +104,7 @@ class Run:
             if scale < 2:
                 used = seconds * ranks * share / 100
                 row.update({COSTS[0]: f"{seconds.sum() * scale:.0f}", COSTS[1]: f"{used.sum() * scale:.0f}"})
-        if memory:
-            row[COSTS[2]] = f"{max(map(float, memory)):.0f}"
+        row[COSTS[2]] = memory(text)
         settings = [words, *law[-1:], *(f"timestep {float(number):.4g}" for number in step[-1:])]
         return {**row, "parameters": "; ".join(part.strip() for part in settings)}
 

@@ -14,7 +14,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
 from report import Run, arguments, conclude, read_runs, values_by_run
 
-VARIANTS = {"plain": "drag alone", "e09": "e = 0.9", "soft": "lambda = 1.76e4"}    # names -phiPHI-VARIANT
+VARIANTS = {"plain": "drag alone", "nolift": "no lift, no Magnus force", "e09": "e = 0.9", "soft": "lambda = 1.76e4"}    # names -phiPHI-VARIANT
 STEP, VOLUME = 0.00263, np.pi / 6 * 0.04**3    # particle step, volume of a particle; as in in.pipe
 
 
