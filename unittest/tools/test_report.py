@@ -3,8 +3,10 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from runpy import run_path
 
-sys.path.append(str(Path(__file__).resolve().parent.parent.parent / "examples"))
+EXAMPLES = Path(__file__).resolve().parent.parent.parent / "examples"
+sys.path.append(str(EXAMPLES))
 sys.dont_write_bytecode = True
 try:
     import report
@@ -58,6 +60,21 @@ class Verdict(unittest.TestCase):
                                         (NAN, NAN, 60, "not reached"), (2.5, NAN, 49, "not reached: run ended at t = 49")):
             self.assertEqual(report.verdict(row, report.Ours(value, spread, t)), words)
         self.assertEqual(report.verdict({**row, "low": NAN, "high": NAN}, report.Ours(1, t=60)), "no number")
+
+
+class Times(unittest.TestCase):
+    """examples/report: what a full variant takes on two ranks, measured or by the ratio of its case."""
+
+    def test_ratio_is_that_of_the_longest_piece(self):
+        times = run_path(str(EXAMPLES / "report"))["times"]
+        rows = [dict(zip(("run", "to t", "ranks", "wall-clock [s]", "MB"), words.split(",")))
+                for words in ("a-x,,2,300,9", "a-x,5,1,10,9", "a-x,5,2,9,9", "a-x,20,1,80,9", "a-x,20,2,48,9", "a,,2,3.5,7")]
+        runs = {name: {"run": name, "t": "100", "CPU [s]": cpu, "MB": "8"} for name, cpu in (("a-x", "500"), ("a-y", "200"),
+                                                                                                ("a-z", ""))}
+        full, quick = times({"a": runs, "b": {"b-x": runs["a-y"]}}, rows)
+        self.assertEqual([(row["two ranks [s]"], row["from"]) for row in full],
+                         [("300", "measured"), ("120", "processor time x 0.60"), ("", ""), ("", "")])
+        self.assertEqual(quick, [{"example": "a", "two ranks [s]": "3.5", "MB": "7"}])
 
 
 if __name__ == "__main__":
