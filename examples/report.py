@@ -117,10 +117,10 @@ def read_runs(folder, pattern, make):
     return runs
 
 
-def draw_pictures(pictures, columns, path):
-    """Pictures of (title, file) in rows."""
+def draw_pictures(pictures, columns, path, size=(3.1, 2.7)):
+    """Pictures of (title, file) in rows, each of this size in inches."""
     rows = -(-len(pictures) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(3.1 * columns, 2.7 * rows), squeeze=False,
+    figure, axes = plt.subplots(rows, columns, figsize=(size[0] * columns, size[1] * rows), squeeze=False,
                                 layout="constrained")
     for axis in axes.flat:
         axis.axis("off")

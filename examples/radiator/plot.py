@@ -54,7 +54,7 @@ def main():
     ends = [(f"{words(run)}, t = {times[-1]:g} L/U", paths[-1]) for run in runs
             for times, paths in [run.pictures(".slice")] if paths]
     if ends:
-        draw_pictures(ends, 2, out / "figure40.png")
+        draw_pictures(ends, 2, out / "figure40.png", (6, 3.2))
     conclude(HERE, values_by_run(runs, values_of),
              [run.cost(f"{run.history['entered'][-1]:.0f} entered") for run in runs], out, kept)
 
