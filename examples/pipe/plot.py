@@ -61,18 +61,23 @@ def values_of(run):
             "radius beyond which v < 0.05 U": still.max() if len(still) else 0.0}
 
 
-def draw_profiles(runs, early, path, marks):
-    """c and v over r at an early time (dashed) and at the end (solid), beside the report's points."""
+def draw_profiles(runs, early, path, marks=(), peak=None, still=None):
+    """c and v over r at an early time (dashed) and at the end (solid), beside what the report says.
+
+    That is points (r, c), the radius of a peak of c, the radius beyond which particles are at rest.
+    """
     figure, axes = plt.subplots(1, 2, figsize=(10, 3.8), layout="constrained")
     for k, run in enumerate(runs):
         for t, line in ((early, "--"), (run.times[-1], "-")):
             c, v = run.profile(t)
             axes[0].plot(run.r, c, line, color=f"C{k}", label=f"{run.words}, t = {t:.0f}")
             axes[1].plot(run.r, v, line, color=f"C{k}")
-    for r, c in marks:
-        axes[0].plot(r, c, "kx", markersize=9)
+    if marks:
+        axes[0].plot(*zip(*marks), "kx", markersize=9, label="report, t = 100")
+    if peak:
+        axes[0].axvline(peak, color="k", linestyle=":", linewidth=0.8, label="report's peak")
+        axes[1].axvspan(still, 1, color="0.9", zorder=0, label="report: at rest")
     axes[1].plot(runs[0].r, 1 - runs[0].r**2, ":", color="0.5", label="fluid")
-    axes[0].plot([], [], "kx", label="report, t = 100")
     axes[0].set(xlabel="r / L", ylabel="c", ylim=(0, 0.1), xlim=(0, 1))
     axes[1].set(xlabel="r / L", ylabel="v / U", xlim=(0, 1))
     axes[0].legend(fontsize=8)
@@ -111,7 +116,7 @@ def draw_sizes(runs, path):
 def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
-    runs = read_runs(folder, "pipe-*.aggregates", Pipe)
+    runs = sorted(read_runs(folder, "pipe-*.aggregates", Pipe), key=lambda run: float(run.name.split("-")[0][3:]))
     dry, adhesive = ([run for run in runs if run.adhesive == kind] for kind in (False, True))
     if dry:
         draw_profiles(dry, 3, out / "figure23.png", [(0.2, 0.03), (0.95, 0.008)])
@@ -119,7 +124,7 @@ def main():
     if adhesive:
         draw_history(adhesive, out / "figure25.png", (0.8 * 5080, 700, 5.5))
         draw_sizes(adhesive, out / "figure26.png")
-        draw_profiles(adhesive, 2, out / "figure27.png", [])
+        draw_profiles(adhesive, 2, out / "figure27.png", peak=0.95, still=0.85)
     conclude(HERE, values_by_run(runs, values_of), [run.cost("5080 particles") for run in runs], out, kept)
 
 
