@@ -72,6 +72,8 @@ class Times(unittest.TestCase):
         runs = {name: {"run": name, "t": "100", "CPU [s]": cpu, "MB": "8"} for name, cpu in (("a-x", "500"), ("a-y", "200"),
                                                                                                 ("a-z", ""))}
         full, quick = times({"a": runs, "b": {"b-x": runs["a-y"]}}, rows)
+        alone, _ = times({"a": runs}, rows[:1])
+        self.assertEqual(alone[1]["from"], "processor time x 0.60", "300 s by two, 500 s of a processor")
         self.assertEqual([(row["two ranks [s]"], row["from"]) for row in full],
                          [("300", "measured"), ("120", "processor time x 0.60"), ("", ""), ("", "")])
         self.assertEqual(quick, [{"example": "a", "two ranks [s]": "3.5", "MB": "7"}])
