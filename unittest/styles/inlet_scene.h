@@ -19,8 +19,8 @@ inline std::string box(const std::string &across = "p p", const std::string &mor
       "fix move all nve/sphere\ntimestep 0.01\n" +
       more;
 }
-inline const std::string fluid = " density 1 viscosity 1\n";
-inline const std::string uniform = "fix air all flow/field uniform 1 0 0" + fluid;
+inline const std::string unit_fluid = " density 1 viscosity 1\n";
+inline const std::string uniform = "fix air all flow/field uniform 1 0 0" + unit_fluid;
 inline const std::string particle = " diameter 0.5 density 2 type 1 seed 4711 ";
 
 // all particles of all ranks by ID; IDs have holes where particles have left

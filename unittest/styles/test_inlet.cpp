@@ -26,7 +26,7 @@ TEST(Inlet, flux_over_ten_thousand_steps)
 {
   // c0 u A = 0.005 x (2/3 of 1.5) x 100; a thousandth of what entered is less than one particle
   Simulation sim;
-  sim.run(box() + "timestep 0.05\nfix air all flow/field channel x y 0 10 1.5" + fluid +
+  sim.run(box() + "timestep 0.05\nfix air all flow/field channel x y 0 10 1.5" + unit_fluid +
           "fix in all inlet/flow x 0 air concentration 0.005" + particle +
           "outlet x 10\nfix drag all flow/force air drag stokes\nrun 10000\n");
   const double size = pi / 6.0 * 0.125, flux = 0.005 * 1.0 * 100.0, time = 500.0;
@@ -79,7 +79,7 @@ TEST(Inlet, places_follow_the_flux)
 {
   // the flux below y is that of the parabola, s^2 (3 - 2 s); particles small enough to feel no edge
   Simulation sim;
-  sim.run(box() + "fix air all flow/field channel x y 0 10 1.5" + fluid +
+  sim.run(box() + "fix air all flow/field channel x y 0 10 1.5" + unit_fluid +
           "fix in all inlet/flow x 0 air number 20000 diameter 1e-4 density 2 type 1 seed 7\n"
           "pair_coeff * * jkr 1e4 0.3 0\nrun 1\n");
   ASSERT_EQ(sim.value("f_in[1]"), 20000.0);
@@ -146,7 +146,7 @@ TEST(Inlet, enters_through_any_plane_in_both_directions)
                                    {"z 1", "0 0 2", 2, 1, 2}, {"-z 9", "0 0 -2", 2, 9, -2}};
   for (const auto &one : cases) {
     Simulation sim;
-    sim.run(box() + "fix air all flow/field uniform " + one.flow + fluid +
+    sim.run(box() + "fix air all flow/field uniform " + one.flow + unit_fluid +
             "fix in all inlet/flow " + one.plane + " air number 50" + particle + "\nrun 1\n");
     const auto x = inside(sim).x;
     ASSERT_EQ(x.size(), 150u) << one.plane;
@@ -181,7 +181,7 @@ TEST(Inlet, in_the_plane_concentration_is_by_area)
 TEST(Inlet, what_entered_is_inside_or_has_left)
 {
   Simulation sim;
-  sim.run(box() + "fix air all flow/field uniform 10 0 0" + fluid +
+  sim.run(box() + "fix air all flow/field uniform 10 0 0" + unit_fluid +
           "fix in all inlet/flow x 0 air concentration 0.03" + particle + "outlet x 12\n");
   double left = 0.0;
   for (int n = 0; n < 8; n++) {
@@ -214,7 +214,7 @@ TEST(Inlet, flow_that_pulsates_and_turns_back)
   sim.run(box() +
           "variable u equal 1.0+1.5*sin(2*PI*step*0.01)\nfix air all flow/field uniform v_u "
           "0 0" +
-          fluid + "fix in all inlet/flow x 1 air concentration 0.05" + particle +
+          unit_fluid + "fix in all inlet/flow x 1 air concentration 0.05" + particle +
           "\nfix drag all flow/force air drag stokes\nrun 300\n");
   double sum = 0.0;
   for (int n = 0; n < 300; n++) sum += std::max(1.0 + 1.5 * std::sin(2.0 * pi * 0.01 * n), 0.0);
@@ -294,7 +294,7 @@ TEST(Inlet, walls_that_the_file_of_the_flow_knows)
     });
   }
   Simulation sim;
-  sim.run(box() + "fix air all flow/field file " + file + fluid +
+  sim.run(box() + "fix air all flow/field file " + file + unit_fluid +
           "fix in all inlet/flow x 0 air number 150 every 1" + particle +
           "\ntimestep 1.0\nrun 1\n");
   std::filesystem::remove(file);

@@ -4,7 +4,7 @@
 
 namespace {
 const std::string shared_scene = box("p p", "") + "fix air all flow/field channel x y 0 10 3" +
-    fluid +
+    unit_fluid +
     "fix in all inlet/flow x 0 air concentration 0.05 diameter lognormal 0.3 1.3 0.1 0.8 density 2 "
     "type 1 seed 99 outlet x 17\nfix drag all flow/force air drag stokes torque yes\n";
 }
@@ -64,7 +64,7 @@ TEST(RanksInlet, shrink_wrapped_box_tiles_and_restart)
 {
   const std::string scene = "comm_style tiled\ncomm_modify vel yes\n"
                             "fix air all flow/field uniform -1 0 0" +
-      fluid +
+      unit_fluid +
       "fix in all inlet/flow -x 15 air concentration 0.08 diameter uniform 0.4 0.8 density 2 "
       "type 1 seed 5 outlet -x 12 window 3 9 3 9\nfix even all balance 50 1.0 rcb\n";
   std::string shrinks = box();
