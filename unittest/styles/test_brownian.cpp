@@ -1,5 +1,5 @@
-// Brownian motion through LAMMPS. Facts: Einstein's diffusion and equipartition at any time step, in
-// the plane, with added mass and slip; seeds are independent.
+// Brownian motion through LAMMPS. Facts: Einstein's diffusion and equipartition at any time step,
+// in the plane, with added mass and slip; seeds are independent.
 
 #include "flow_scene.h"
 
@@ -58,8 +58,8 @@ void expect_mean_square(const std::vector<double> &values, int component, double
 
 const std::string squares = "compute where all msd com no\nthermo_style custom step c_where[4]\n";
 
-// Motion from rest in steps of length h of spheres whose inertia and mobilities are some times those
-// of Stokes's law in a light fluid.
+// Motion from rest in steps of length h of spheres whose inertia and mobilities are some times
+// those of Stokes's law in a light fluid.
 void expect_walk(const Cloud &with, double h, double time, double inertia, double mobility,
                  double mobility_of_spin)
 {

@@ -1,5 +1,5 @@
-// fix flow/concentration by convolution. Facts: it agrees with the direct sum and with closed forms, by
-// walls, in the plane and where clouds are wider than the box.
+// fix flow/concentration by convolution. Facts: it agrees with the direct sum and with closed
+// forms, by walls, in the plane and where clouds are wider than the box.
 
 #include "concentration_scene.h"
 

@@ -1,5 +1,5 @@
-// A keyword that is given twice, of which one value would count for nothing: an error that points at
-// the second one. Those that add something each time stay as they are.
+// A keyword that is given twice, of which one value would count for nothing: an error that points
+// at the second one. Those that add something each time stay as they are.
 
 #include "simulation.h"
 #include "temporary_file.h"
@@ -22,7 +22,8 @@ fix air all flow/field uniform 1 0 0 density 1 viscosity 1
 const std::string law = " jkr 1e6 0.3 0.01 ", floor_at_0 = "fix w all wall/levelset plane z 0 NULL";
 const std::string in = "fix in all inlet/flow x 1 air number 1 diameter 1 density 1 type 1 seed 1";
 
-// whether the error, which shows the command and underlines a word of it, does so at its last `word`
+// whether the error, which shows the command and underlines a word of it, does so at its last
+// `word`
 bool points_at_last(const std::string &error, const std::string &word)
 {
   const size_t mark = error.find('^');
