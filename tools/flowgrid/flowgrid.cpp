@@ -116,7 +116,7 @@ void tell_slip(size_t wall_points, const Quality &q)
            wall_points, q.slip);
 }
 
-// What would else be told after a long mapping: surfaces are there, and none of them is written over.
+// Told before a long mapping: surfaces that are not there, or that would be written over.
 void check_surface_files(const Options &o)
 {
   for (const auto &words : o.surfaces) {

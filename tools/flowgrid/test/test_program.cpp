@@ -1,4 +1,5 @@
-// The program: files that VTK wrote come out as VTKHDF that VTK and APF read; what is wrong is said.
+// The program: files that VTK wrote come out as VTKHDF that VTK and APF read; errors name what is
+// wrong.
 
 #include "linear_fields.h"
 #include "meshes.h"
