@@ -171,9 +171,8 @@ APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Re
   ContactOutput<Frame> out;
   const auto d_mid =
       in.d + (times.behind * c.turning) * in.v;    // when the bodies had the velocity v
-  const Real distance = sqrt(dot(in.d, in.d));
-  Real inv_distance = distance, inv_mid = sqrt(dot(d_mid, d_mid));
-  invert(inv_distance, inv_mid);
+  Real inv_distance = dot(in.d, in.d), inv_mid = dot(d_mid, d_mid);
+  const Real distance = invert_roots(inv_distance, inv_mid);
   const Frame frame{inv_distance * in.d}, mid{inv_mid * d_mid};
   const Real overlap = c.radius_sum - distance;
   const Real closed = select(overlap < c.break_overlap, Real(0.0), Real(1.0));
@@ -222,15 +221,15 @@ APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Re
   const Slider<Real, Tangent> roll(roll_k, roll_eta, v_roll, times.advance,
                                    turning.memory(memory.rolling));
 
-  Real inv_s = s, inv_slide = slide.size, inv_roll = roll.size;
+  Real inv_s = s, inv_slide = slide.size2, inv_roll = roll.size2;
   if constexpr (Frame::planar)
-    inv_s = 1.0 / s;
+    invert(inv_s);
   else if constexpr (sliding && rolling)
-    invert(inv_s, inv_slide, inv_roll);
+    invert_roots(inv_slide, inv_roll, inv_s);
   else if constexpr (sliding)
-    invert(inv_s, inv_slide);
+    invert_root(inv_slide, inv_s);
   else
-    invert(inv_s, inv_roll);
+    invert_root(inv_roll, inv_s);
   const Real inv_s2 = inv_s * inv_s;
 
   if constexpr (sliding) {

@@ -245,10 +245,30 @@ APF_INLINE Pack<64> inverse_root(const Pack<64> &a)
 }
 
 // one by one is quicker here than by one division for all
-template <class... Packs> APF_INLINE void invert(Pack<64> &a, Packs &...others)
+APF_INLINE void invert(Pack<64> &a, Pack<64> &b)
 {
   a = inverse(a);
+  b = inverse(b);
+}
+APF_INLINE void invert(Pack<64> &a, Pack<64> &b, Pack<64> &c)
+{
+  invert(a, b);
+  c = inverse(c);
+}
+template <class... Others> APF_INLINE void invert_root(Pack<64> &a, Others &...others)
+{
+  a = inverse_root(a);
   ((others = inverse(others)), ...);
+}
+template <class... Others>
+APF_INLINE Pack<64> invert_roots(Pack<64> &a, Pack<64> &b, Others &...others)
+{
+  const Pack<64> squared = a;
+  a = inverse_root(a);
+  b = inverse_root(b);
+  ((others = inverse(others)), ...);
+  const Pack<64> root = squared * a;
+  return root + 0.5 * a * (squared - root * root);    // as exact as sqrt()
 }
 #endif
 

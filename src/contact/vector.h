@@ -110,7 +110,11 @@ APF_INLINE double inverse_root(double a)
 }
 
 // Reciprocals of all at once by one division: that costs as much as a dozen products, and binds the
-// kernel.
+// kernel. A Pack may be quicker one by one.
+template <class Real> APF_INLINE void invert(Real &a)
+{
+  a = inverse(a);
+}
 template <class Real> APF_INLINE void invert(Real &a, Real &b)
 {
   const Real both = 1.0 / (a * b), old = a;
@@ -123,6 +127,24 @@ template <class Real> APF_INLINE void invert(Real &a, Real &b, Real &c)
   c = all * ab;
   a = both * b;
   b = both * old;
+}
+
+// a becomes 1/sqrt(a), the others 1/b and 1/c
+template <class Real, class... Others> APF_INLINE void invert_root(Real &a, Others &...others)
+{
+  using std::sqrt;
+  a = sqrt(a);
+  invert(a, others...);
+}
+// a and b become 1/sqrt(a) and 1/sqrt(b), c 1/c; what is returned is sqrt(a)
+template <class Real, class... Others>
+APF_INLINE Real invert_roots(Real &a, Real &b, Others &...others)
+{
+  using std::sqrt;
+  const Real root = a = sqrt(a);
+  b = sqrt(b);
+  invert(a, b, others...);
+  return root;
 }
 
 }    // namespace apf
