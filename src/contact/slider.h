@@ -22,38 +22,38 @@ template <class Real, class Displacement> struct Slider {
   static constexpr bool straight = std::is_same_v<Real, Displacement>;
 
   Displacement stretched, dashpot, trial;
-  Real size2;    // of the trial force, squared: never 0. Not used by a Real
-  double active;
+  Real size;    // of the trial force; never 0
 
   //   k      spring constant
   //   eta    dashpot constant
-  //   v, dt  velocity of the slip and time since the last step; dt = 0 leaves the history alone
+  //   v, dt  velocity of the slip and time since the last step
   //   xi     spring elongation
   APF_INLINE Slider(const Real &k, const Real &eta, const Displacement &v, double dt,
                     const Displacement &xi) :
       stretched(xi + Real(dt) * v),
-      dashpot(eta * v), trial(k * stretched + dashpot), active(dt > 0.0 ? 1.0 : 0.0)
+      dashpot(eta * v), trial(k * stretched + dashpot)
   {
-    if constexpr (!straight) size2 = norm2(trial) + 1.0e-200;
+    using std::sqrt;
+    if constexpr (straight)
+      size = magnitude(trial);
+    else
+      size = sqrt(norm2(trial) + 1.0e-200);
   }
 
   //   limit     largest force
-  //   inv_size  1 / sqrt(size2); not used by a Real
+  //   inv_size  1 / size; not used by a Real
   //   inv_k     1 / k; 0 where there is no spring
   //   xi        becomes the new elongation
   APF_INLINE Displacement force(const Real &limit, const Real &inv_size, const Real &inv_k,
                                 Displacement &xi) const
   {
-    if constexpr (straight) {
-      const Displacement held = smaller(larger(trial, -limit), limit);
-      xi = select(limit < active * magnitude(trial), inv_k * (held - dashpot), stretched);
-      return -held;
-    } else {
-      const Real share = limit * inv_size;
-      const Displacement held = smaller(share, 1.0) * trial;
-      xi = select(share < active, inv_k * (held - dashpot), stretched);
-      return -held;
-    }
+    Displacement held;
+    if constexpr (straight)
+      held = smaller(larger(trial, -limit), limit);
+    else
+      held = smaller(limit * inv_size, 1.0) * trial;
+    xi = select(limit < size, inv_k * (held - dashpot), stretched);
+    return -held;
   }
 };
 

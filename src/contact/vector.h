@@ -91,12 +91,16 @@ template <class Real> struct Vector3 {
 using Vec2 = Vector2<double>;
 using Vec3 = Vector3<double>;
 
-// Roots and reciprocals where four digits do; a Pack may have quicker ones.
+// Roots and reciprocals where four digits do, or twelve; a Pack may have quicker ones.
 APF_INLINE double rough_root(double a)
 {
   return std::sqrt(a);
 }
 APF_INLINE double rough_inverse(double a)
+{
+  return 1.0 / a;
+}
+APF_INLINE double close_inverse(double a)
 {
   return 1.0 / a;
 }
@@ -110,11 +114,7 @@ APF_INLINE double inverse_root(double a)
 }
 
 // Reciprocals of all at once by one division: that costs as much as a dozen products, and binds the
-// kernel. A Pack may be quicker one by one.
-template <class Real> APF_INLINE void invert(Real &a)
-{
-  a = inverse(a);
-}
+// kernel.
 template <class Real> APF_INLINE void invert(Real &a, Real &b)
 {
   const Real both = 1.0 / (a * b), old = a;
@@ -127,24 +127,6 @@ template <class Real> APF_INLINE void invert(Real &a, Real &b, Real &c)
   c = all * ab;
   a = both * b;
   b = both * old;
-}
-
-// a becomes 1/sqrt(a), the others 1/b and 1/c
-template <class Real, class... Others> APF_INLINE void invert_root(Real &a, Others &...others)
-{
-  using std::sqrt;
-  a = sqrt(a);
-  invert(a, others...);
-}
-// a and b become 1/sqrt(a) and 1/sqrt(b), c 1/c; what is returned is sqrt(a)
-template <class Real, class... Others>
-APF_INLINE Real invert_roots(Real &a, Real &b, Others &...others)
-{
-  using std::sqrt;
-  const Real root = a = sqrt(a);
-  b = sqrt(b);
-  invert(a, b, others...);
-  return root;
 }
 
 }    // namespace apf
