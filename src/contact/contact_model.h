@@ -85,14 +85,13 @@ template <class Real> struct ConstantsOf {
   Real mu;               // sliding friction                                                  [-]
   Real adhesion;         // 2 F_C in the friction limit mu |F_e + 2 F_C|                  [force]
   Real twist;            // limit of twisting: twist s^2 times that of sliding            [length]
-  Real
-      inv_twist;    // 1 / (stiffness of twisting), times s^6                         [1/(force length)]
-  Real roll_k;        // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
-  Real inv_roll_k;    // 1 / roll_k; 0 where roll_k is
-  Real roll_limit;    // xi_crit = theta_crit R                                       [length]
-  Real roll_eta;      // rolling damping: roll_eta s^(3/2)                 [force time/length]
-  Real turning;       // see ContactBodies                                                 [-]
-  Real lag;           // lag s = eta s / (2 m), see lagging_dashpot()              [1/time]
+  Real inv_twist;        // times s^-6: 1 / stiffness of twisting            [1/(force length)]
+  Real roll_k;           // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
+  Real inv_roll_k;       // 1 / roll_k; 0 where roll_k is
+  Real roll_limit;       // xi_crit = theta_crit R                                       [length]
+  Real roll_eta;         // rolling damping: roll_eta s^(3/2)                 [force time/length]
+  Real turning;          // see ContactBodies                                                 [-]
+  Real lag;              // lag s = eta s / (2 m), see lagging_dashpot()              [1/time]
 };
 
 struct ContactConstants : ConstantsOf<double> {
