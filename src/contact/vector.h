@@ -9,7 +9,11 @@
 
 // Laws are inlined into the kernel's loop whatever the compiler thinks of their size: a call that
 // is left over would take numbers out of their registers.
+#ifdef __SANITIZE_ADDRESS__
+#define APF_INLINE inline
+#else
 #define APF_INLINE inline __attribute__((always_inline))
+#endif
 
 namespace apf {
 
