@@ -9,6 +9,7 @@
 #include "fix_nve_sphere_mts.h"
 #include "fix_wall_levelset.h"
 #include "force.h"
+#include "given_once.h"
 #include "math_extra.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -53,8 +54,10 @@ void APFAdvise::command(int narg, char **arg)
 
 void APFAdvise::parse(int narg, char **arg)
 {
+  GivenOnce given(lmp, "Command apf_advise");
   for (int iarg = 0; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
+    given.add(word, iarg);
     if (word != "speed" && word != "length")
       error->all(FLERR, iarg, "Command apf_advise keyword must be speed or length, got {}", word);
     if (iarg + 1 == narg) utils::missing_cmd_args(FLERR, "apf_advise " + word, error);

@@ -2,6 +2,7 @@
 
 #include "error.h"
 #include "fmt/format.h"
+#include "given_once.h"
 #include "material_file.h"
 #include "utils.h"
 
@@ -268,8 +269,12 @@ ContactCoeff LAMMPS_NS::parse_contact(LAMMPS *lmp, const char *command, int narg
     words.refuse(fmt::format("contact law must be jkr or material, got {}", arg[iarg]));
   }
 
-  while (!words.at_end() &&
-         (parse_keyword(words, coeff.model) || parse_liquid(words, coeff.bridge))) {}
+  GivenOnce given(lmp, command);
+  bool known = true;
+  while (known && !words.at_end()) {
+    given.add(arg[iarg], offset + iarg);
+    known = parse_keyword(words, coeff.model) || parse_liquid(words, coeff.bridge);
+  }
 
   check_bridge(words, coeff.bridge);
   coeff.model.surface = apf::interface(coeff.material, coeff.material);

@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
+#include "given_once.h"
 #include "known_walls.h"
 #include "modify.h"
 #include "particle_checks.h"
@@ -59,8 +60,10 @@ std::array<int, 3> FixFlowConcentration::parse_cells(int narg, char **arg)
 
 void FixFlowConcentration::parse(int narg, char **arg)
 {
+  GivenOnce given(lmp, command);
   for (int iarg = 6; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
+    given.add(word, iarg);
     if (word != "cloud" && word != "every" && word != "method")
       error->all(FLERR, iarg, "{} keyword must be cloud, every or method, got {}", command, word);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix flow/concentration " + word, error);

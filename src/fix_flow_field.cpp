@@ -4,6 +4,7 @@
 #include "comm.h"
 #include "error.h"
 #include "flow_grid.h"
+#include "given_once.h"
 #include "input.h"
 #include "modify.h"
 #include "restart_state.h"
@@ -34,8 +35,12 @@ FixFlowField::FixFlowField(LAMMPS *lmp, int narg, char **arg) :
   if (strcmp(arg[3], "file") == 0) {
     parse_file(narg, arg);
   } else {
+    GivenOnce given(lmp, "Fix flow/field");
     int iarg = parse_kind(narg, arg);
-    while (iarg < narg) iarg = parse_property(iarg, narg, arg);
+    while (iarg < narg) {
+      given.add(arg[iarg], iarg);
+      iarg = parse_property(iarg, narg, arg);
+    }
   }
   if (density == 0.0) error->all(FLERR, "Fix flow/field requires keyword density");
   if (viscosity == 0.0) error->all(FLERR, "Fix flow/field requires keyword viscosity");

@@ -5,6 +5,7 @@
 #include "domain.h"
 #include "error.h"
 #include "flow_grid.h"
+#include "given_once.h"
 
 #include <cstring>
 
@@ -130,8 +131,10 @@ void FixFlowField::parse_file(int narg, char **arg)
 {
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix flow/field file", error);
   FlowGrid::Options options;
+  GivenOnce given(lmp, "Fix flow/field");
   int iarg = 5;
   while (iarg < narg) {
+    given.add(arg[iarg], iarg);
     const int next = options.parse(lmp, iarg, narg, arg);
     if (next == iarg && strcmp(arg[iarg], "density") != 0 && strcmp(arg[iarg], "viscosity") != 0)
       error->all(FLERR, iarg,

@@ -9,6 +9,7 @@
 #include "fix_flow_concentration.h"
 #include "fix_flow_field.h"
 #include "force.h"
+#include "given_once.h"
 #include "math_const.h"
 #include "modify.h"
 #include "update.h"
@@ -41,9 +42,11 @@ void FixFlowForce::parse(int narg, char **arg)
                   {"concentration", 1, &FixFlowForce::parse_concentration},
                   {"peratom", 1, &FixFlowForce::parse_switch},
                   {"feedback", 1, &FixFlowForce::parse_feedback}};
+  GivenOnce given(lmp, "Fix flow/force");
   int iarg = 4;
   while (iarg < narg) {
     const std::string word = arg[iarg];
+    given.add(word, iarg);
     int next = 0;
     for (const auto &keyword : keywords) {
       if (word != keyword.word) continue;
@@ -60,10 +63,10 @@ void FixFlowForce::parse(int narg, char **arg)
   }
   if (model.drag == apf::FluidModel::NONE)
     error->all(FLERR, "Fix flow/force requires keyword drag");
-  const bool given = concentration >= 0.0 || cloud;
-  if (model.hindered() && !given)
+  const bool concentrated = concentration >= 0.0 || cloud;
+  if (model.hindered() && !concentrated)
     error->all(FLERR, "Fix flow/force drag difelice requires keyword concentration");
-  if (!model.hindered() && given && !feedback)
+  if (!model.hindered() && concentrated && !feedback)
     error->all(FLERR,
                "Fix flow/force keyword concentration goes with drag difelice or feedback yes only");
 }

@@ -4,6 +4,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_inlet_flow.h"
+#include "given_once.h"
 #include "random_mars.h"
 
 #include "flow/di_felice.h"
@@ -24,9 +25,11 @@ void FixInletFlow::parse(int narg, char **arg)
   field_id = arg[5];
   for (auto &side : window) side[0] = side[1] = NAN;
 
+  GivenOnce given(lmp, command);
   int iarg = 6;
   while (iarg < narg) {
     const std::string word = arg[iarg];
+    if (word != "outlet") given.add(word, iarg);
     if (word == "window")
       iarg = parse_window(iarg, narg, arg);
     else if (word == "diameter")

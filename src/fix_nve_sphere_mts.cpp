@@ -1,6 +1,7 @@
 #include "fix_nve_sphere_mts.h"
 
 #include "atom.h"
+#include "atom_rows.h"
 #include "error.h"
 #include "fix_contact_history.h"
 #include "fix_flow_force.h"
@@ -12,6 +13,18 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
+
+// LAMMPS's arrays of what moves a particle that nothing touches
+struct FixNVESphereMTS::FreeMotion {
+  double (*x)[3], (*v)[3], (*omega)[3];
+  const double (*f)[3], (*torque)[3], *radius, *mass;
+
+  explicit FreeMotion(const Atom *atom) :
+      x(rows_of(atom->x)), v(rows_of(atom->v)), omega(rows_of(atom->omega)), f(rows_of(atom->f)),
+      torque(rows_of(atom->torque)), radius(atom->radius), mass(atom->rmass)
+  {
+  }
+};
 
 /* ---------------------------------------------------------------------- */
 
@@ -81,10 +94,11 @@ void FixNVESphereMTS::final_integrate()
 {
   foresight.gather_loads();
   const double half = 0.5 * collision_step();
+  const FreeMotion motion(atom);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (activity[i] == apf::FREE)
-      kick_free(i, half);
+      kick_free(motion, i, half);
     else
       kick_atom(i, half);
   }
@@ -186,33 +200,35 @@ void FixNVESphereMTS::kick_atom(int i, double time)
 void FixNVESphereMTS::drift_free()
 {
   const double dt = update->dt;
+  const FreeMotion motion(atom);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!foresight.free(i) || !(atom->mask[i] & groupbit)) continue;
     if (activity[i] == apf::FREE)
-      kick_free(i, 0.5 * dt);
+      kick_free(motion, i, 0.5 * dt);
     else
       kick_atom(i, 0.5 * dt);    // f has the resistance of a collision step
-    for (int c = 0; c < 3; c++) atom->x[i][c] += dt * atom->v[i][c];
+    for (int c = 0; c < 3; c++) motion.x[i][c] += dt * motion.v[i][c];
   }
 }
 
 // Half a step of velocity Verlet; flow/force's resistance is meant for it. A contact that nobody
 // foresaw gives both its bodies a kick as long as it says.
-void FixNVESphereMTS::kick_free(int i, double load_time)
+void FixNVESphereMTS::kick_free(const FreeMotion &motion, int i, double load_time)
 {
-  const double r = atom->radius[i], time = 0.5 * update->dt;
-  const double linear = 1.0 / atom->rmass[i], angular = 2.5 * linear / (r * r);
+  const double r = motion.radius[i], time = 0.5 * update->dt;
+  const double linear = 1.0 / motion.mass[i], angular = 2.5 * linear / (r * r);
+  double *v = motion.v[i], *omega = motion.omega[i];
   for (int c = 0; c < 3; c++) {
-    atom->v[i][c] += linear * time * atom->f[i][c];
-    atom->omega[i][c] += angular * time * atom->torque[i][c];
+    v[c] += linear * time * motion.f[i][c];
+    omega[c] += angular * time * motion.torque[i][c];
   }
   if (!history->bodies().may_have_load(i)) return;
   double load[3] = {}, moment[3] = {};
   history->bodies().add_load_to(i, load, moment);
   const double more = load_time - time, share = contact_share(i);
   for (int c = 0; c < 3; c++) {
-    atom->v[i][c] += linear * more * share * load[c];
-    atom->omega[i][c] += angular * more * moment[c];
+    v[c] += linear * more * share * load[c];
+    omega[c] += angular * more * moment[c];
   }
 }
 

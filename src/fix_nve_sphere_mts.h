@@ -109,7 +109,8 @@ class FixNVESphereMTS : public Fix {
   apf::Slow slow_of(int i, bool all = false) const;
   double contact_share(int i) const;
   void kick_atom(int i, double time);
-  void kick_free(int i, double load_time);
+  struct FreeMotion;
+  void kick_free(const FreeMotion &, int i, double load_time);
   void end_slow_kicks();
   void sub_step_active();
   template <class Row> void sub_step_active();

@@ -8,6 +8,7 @@
 #include "fix_contact_history.h"
 #include "fix_flow_force.h"
 #include "force.h"
+#include "given_once.h"
 #include "modify.h"
 #include "particle_checks.h"
 #include "update.h"
@@ -60,8 +61,10 @@ FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
                  "{} collision must be auto, tolerance T or a number of steps from 1 to {}, got {}",
                  command, too_many, arg[4]);
   }
+  GivenOnce given(lmp, command);
   for (; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
+    given.add(word, iarg);
     if (word != "safety" && word != "fluid" && word != "lookahead")
       error->all(FLERR, iarg, "{} keyword must be safety, fluid or lookahead, got {}", command,
                  word);

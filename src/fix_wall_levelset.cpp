@@ -8,6 +8,7 @@
 #include "error.h"
 #include "fix_contact_history.h"
 #include "force.h"
+#include "given_once.h"
 #include "modify.h"
 #include "named_atoms.h"
 #include "particle_checks.h"
@@ -46,7 +47,10 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   surfaces = parse_surfaces(lmp, command, narg, arg, iarg, grid);
   coefficient = parse_contact(lmp, command, narg, arg, iarg, 0);
   const auto names = surface_names(surfaces, grid.get());
+  GivenOnce given(lmp, command);
   while (iarg < narg) {
+    if (strcmp(arg[iarg], "move") != 0 && strcmp(arg[iarg], "zone") != 0)
+      given.add(arg[iarg], iarg);
     if (strcmp(arg[iarg], "move") == 0) {
       motion.parse(command, narg, arg, iarg);
     } else if (strcmp(arg[iarg], "resolution") == 0) {

@@ -4,6 +4,7 @@
 #include "pair_granular_adhesive.h"
 
 #include "atom.h"
+#include "atom_rows.h"
 #include "comm.h"
 #include "contact/jump.h"
 #include "fix_contact_history.h"
@@ -99,9 +100,7 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   // a ghost's force belongs to another rank, which has computed it as well where newton is off
   if (ended) correct_ends(times.advance);
   const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
-  if (n)
-    bodies.add_loads_to_all(n, reinterpret_cast<double(*)[3]>(atom->f[0]),
-                            reinterpret_cast<double(*)[3]>(atom->torque[0]));
+  if (n) bodies.add_loads_to_all(n, rows_of(atom->f), rows_of(atom->torque));
   if (tallied) tally(eflag);
   parts = std::vector<apf::ContactParts>();    // memory is for steps that look at them
   if (ended) remove_ended(false);

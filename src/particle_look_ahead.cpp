@@ -1,6 +1,7 @@
 #include "particle_look_ahead.h"
 
 #include "atom.h"
+#include "atom_rows.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -42,6 +43,7 @@ void ParticleLookAhead::list_was_built()
 
 bool ParticleLookAhead::look(double slow_largest)
 {
+  ahead.begin(atom->nlocal + atom->nghost);
   const bool rebuild = set_reach(find_extremes(slow_largest));
   find_active();
   if (!owners_known) know_owners();
@@ -52,30 +54,38 @@ bool ParticleLookAhead::look(double slow_largest)
   return rebuild;
 }
 
-ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest) const
+/* ----------------------------------------------------------------------
+   in one pass, for it costs memory traffic: also the accelerations of surfaces by all forces as
+   they stand, |f|/m + r |torque|/I
+------------------------------------------------------------------------- */
+
+ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest)
 {
   double most[11];
   std::fill(most, most + 11, -big);
   double &speed2 = most[6], &acceleration2 = most[7], &displacement2 = most[8];
   speed2 = displacement2 = 0.0;
   acceleration2 = slow_largest * slow_largest;
-  auto &bodies = history->bodies();
+  const auto &bodies = history->bodies();
+  const auto *xs = rows_of(atom->x), *vs = rows_of(atom->v), *fs = rows_of(atom->f);
+  const auto *torques = rows_of(atom->torque);
   for (int i = 0; i < atom->nlocal; i++) {
-    const double *v = atom->v[i], *x = atom->x[i], *built = &x_built[3 * i];
+    const double *x = xs[i], *v = vs[i], *built = &x_built[3 * i], mass = atom->rmass[i];
     for (int c = 0; c < 3; c++) {
       most[c] = std::max(most[c], v[c]);
       most[3 + c] = std::max(most[3 + c], -v[c]);
     }
-    most[9] = std::max(most[9], atom->rmass[i]);
-    most[10] = std::max(most[10], -atom->rmass[i]);
+    most[9] = std::max(most[9], mass);
+    most[10] = std::max(most[10], -mass);
     speed2 = std::max(speed2, MathExtra::lensq3(v));
     const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
     displacement2 = std::max(displacement2, MathExtra::lensq3(moved));
+    const double f2 = MathExtra::lensq3(fs[i]), torque2 = MathExtra::lensq3(torques[i]);
+    ahead.acceleration[i] = (std::sqrt(f2) + 2.5 * std::sqrt(torque2) / atom->radius[i]) / mass;
     double load[3] = {}, torque[3] = {};
     bodies.add_load_to(i, load, torque);
     if (history->count(i) == 0.0 && MathExtra::lensq3(load) == 0.0)
-      acceleration2 = std::max(acceleration2,
-                               MathExtra::lensq3(atom->f[i]) / (atom->rmass[i] * atom->rmass[i]));
+      acceleration2 = std::max(acceleration2, f2 / (mass * mass));
   }
   double all[11];
   MPI_Allreduce(most, all, 11, MPI_DOUBLE, MPI_MAX, world);
@@ -137,8 +147,8 @@ bool ParticleLookAhead::set_reach(const Extremes &now)
 
 void ParticleLookAhead::find_active()
 {
-  ahead.begin(atom->nlocal + atom->nghost);
-  find_accelerations();
+  message = Message::ACCELERATION;
+  comm->forward_comm(carrier, 1);
   const auto &bodies = history->bodies();
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     double load[3] = {}, torque[3] = {};
@@ -187,22 +197,6 @@ void ParticleLookAhead::gather_loads()
 {
   message = Message::LOADS;
   if (force->newton_pair) comm->reverse_comm(carrier, 6);
-}
-
-/* ----------------------------------------------------------------------
-   by all forces as they stand, of local and ghost atoms: |f|/m + r |torque|/I
-------------------------------------------------------------------------- */
-
-void ParticleLookAhead::find_accelerations()
-{
-  auto &of = ahead.acceleration;
-  of.assign(atom->nlocal + atom->nghost, 0.0);
-  for (int i = 0; i < atom->nlocal; i++)
-    of[i] =
-        (MathExtra::len3(atom->f[i]) + 2.5 * MathExtra::len3(atom->torque[i]) / atom->radius[i]) /
-        atom->rmass[i];
-  message = Message::ACCELERATION;
-  comm->forward_comm(carrier, 1);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -62,10 +62,9 @@ class ParticleLookAhead : protected Pointers {
     double struck;          // speed of a light body struck by a heavy one, over the latter's  [-]
   };
 
-  Extremes find_extremes(double slow_largest) const;
+  Extremes find_extremes(double slow_largest);
   bool set_reach(const Extremes &);
   void find_active();
-  void find_accelerations();
   void share_activity();
   void know_owners();
 };

@@ -7,6 +7,7 @@
 #define APF_USED_VELOCITY_H
 
 #include "atom.h"
+#include "atom_rows.h"
 #include "contact/bodies.h"
 
 #include <array>
@@ -124,12 +125,6 @@ class UsedVelocity {
       due[i] = {load[0], load[1], load[2]};
     else
       due.erase(i);
-  }
-
-  // LAMMPS's arrays are contiguous
-  static const double (*rows_of(double **a))[3]
-  {
-    return reinterpret_cast<const double(*)[3]>(a[0]);
   }
 
   static uint64_t now(const Atom *atom, int i)

@@ -2,6 +2,7 @@
 
 #include "domain.h"
 #include "error.h"
+#include "given_once.h"
 #include "lammps_version.h"
 #include "math_const.h"
 
@@ -70,9 +71,11 @@ std::vector<apf::Surface> LAMMPS_NS::parse_surfaces(LAMMPS *lmp, const char *com
     if (narg < iarg + 1) utils::missing_cmd_args(FLERR, "fix wall/levelset file", lmp->error);
     const int word = iarg++;
     std::vector<std::string> arrays;
+    GivenOnce given(lmp, command);
     while (iarg < narg && strcmp(arg[iarg], "array") == 0) {
       if (narg < iarg + 2) utils::missing_cmd_args(FLERR, "fix wall/levelset array", lmp->error);
       arrays.push_back(arg[iarg + 1]);
+      given.add("array " + arrays.back(), iarg);
       iarg += 2;
     }
     grid = std::make_unique<WallGrid>(lmp, command, arg[word], arrays, largest_number_of_surfaces,

@@ -194,7 +194,7 @@ namespace ContactModels {
         if (ended)
           stored.end();
         else
-          stored.store(mass, memory);
+          stored.store(mass, times.advance > 0.0 ? memory : stored.load());
         // LIGGGHTS keeps the history of pairs with a flag; that of an ended contact is zeros
         if (contact.contact_flags) *contact.contact_flags |= CONTACT_NORMAL_MODEL;
       }

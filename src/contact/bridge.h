@@ -171,7 +171,9 @@ template <class Real> struct BridgeConstantsOf {
   Real film;         // resistance to sliding / (8/15 ln(R/h) + 0.9588); 0 = none       [mass/time]
   Real fitted;       // 1: Willett, 0: (45)
   Real fit_force;    // 4 pi R sigma                                                        [force]
-  Real inv_R, K, neck, break_overlap, eta, lag;    // of the dry contact, see ConstantsOf
+  // of the dry contact, see ConstantsOf
+  Real K, neck6, kn, root_unit, root_scale, break_overlap, eta, lag;
+  Real unused[2];    // the kernel loads four at a time
 };
 
 // ... and those that do.
@@ -237,9 +239,11 @@ struct BridgeConstants : BridgeConstantsOf<double>, BridgeVolumeOf<double> {
     c.film = liquid.tangential ? 6.0 * pi * liquid.mu * R : 0.0;
     c.fitted = liquid.capillary == Capillary::willett ? 1.0 : 0.0;
     c.fit_force = 4.0 * pi * R * liquid.sigma;
-    c.inv_R = dry.inv_R;
     c.K = dry.K;
-    c.neck = dry.neck;
+    c.neck6 = dry.neck6;
+    c.kn = dry.kn;
+    c.root_unit = dry.root_unit;
+    c.root_scale = dry.root_scale;
     c.break_overlap = dry.break_overlap;
     c.eta = dry.eta;
     c.lag = dry.lag;

@@ -99,7 +99,7 @@ template <class Real>
 APF_INLINE Real force_beside(const BridgeConstantsOf<Real> &c, const Real &overlap,
                              const Real &closing, const Real &mass, double step)
 {
-  const Real s = jkr_root(overlap, c.inv_R, c.neck);
+  const Real s = jkr_root(overlap, c.root_scale, c.root_unit);
   return select(overlap < c.break_overlap, Real(0.0), force_at(c, s, closing, mass, step));
 }
 

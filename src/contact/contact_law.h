@@ -159,7 +159,7 @@ APF_INLINE Real stable_dashpot(const Real &eta, const Real &k, const Real &m, do
   return smaller(eta, larger(of_mass * m - of_spring * k, 0.0));
 }
 
-// The whole law.
+// The whole law. With times.advance = 0 the memory is to be left as it was.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
 APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Real> &c,
                                             const ContactInput<Frame> &in, ContactTimes times,
@@ -176,21 +176,20 @@ APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Re
   invert(inv_distance, inv_mid);
   const Frame frame{inv_distance * in.d}, mid{inv_mid * d_mid};
   const Real overlap = c.radius_sum - distance;
-  const Real closed = select(overlap < c.break_overlap, Real(0.0), Real(1.0));
+  const auto ended = overlap < c.break_overlap;
 
   // normal
-  Real s;
+  Real s;    // never 0
   if constexpr (adhesion)
-    s = jkr_root(overlap, c.inv_R, c.neck);
+    s = jkr_root(overlap, c.root_scale, c.root_unit);
   else
     s = sqrt(sqrt(larger(overlap * c.inv_R, 1.0e-60)));
-  const Real s2 = s * s, s3 = s2 * s;
-  const Real neck3 = adhesion ? c.neck * c.neck * c.neck : Real(0.0);
-  const Real elastic = closed * c.K * s3 * (s3 - 6.0 * neck3);
-  const Real eta = closed * lagging_dashpot(c, s, times.behind);
+  const Real now = select(ended, Real(0.0), s);    // no spring, dashpot or limit at the end
+  const Real s2 = now * now, s3 = s2 * now;
+  const Real elastic = c.K * s3 * (adhesion ? s3 - c.neck6 : s3);
+  const Real eta = lagging_dashpot(c, now, times.behind);
   const Real vn = dot(in.v, mid.n);
-  const Real kn = c.K * c.inv_R * s2;
-  const Real damping = stable_dashpot(eta, kn, in.crowd_mass, times.step) * vn;
+  const Real damping = stable_dashpot(eta, c.kn * s2, in.crowd_mass, times.step) * vn;
 
   out.overlap = overlap;
   out.s = s;
@@ -210,14 +209,14 @@ APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Re
   const Real kt = c.kt * s2;
   // a force at the surface of a sphere moves that surface as if it had 2/7 of the mass
   const Real eta_t = stable_dashpot(eta, kt, (2.0 / 7.0) * in.crowd_mass, times.step);
-  const Real slip_limit = closed * c.mu * magnitude(elastic + c.adhesion);
+  const Real slip_limit = select(ended, Real(0.0), c.mu * magnitude(elastic + c.adhesion));
   const auto slip =
       turning.slip(mid.slip(in.v, vn) + mid.slip_of_spin(arm_i * in.spin_i + arm_j * in.spin_j));
   const Slider<Real, Tangent> slide(kt, eta_t, slip, times.advance, turning.memory(memory.sliding));
 
   const Real roll_k = c.roll_k * s3;
   const Real roll_eta =
-      stable_dashpot(closed * c.roll_eta * s * sqrt(s), roll_k, in.crowd_roll, times.step);
+      stable_dashpot(c.roll_eta * now * sqrt(s), roll_k, in.crowd_roll, times.step);
   const auto v_roll = (-c.R) * turning.slip(mid.slip_of_spin(in.spin_i - in.spin_j));
   const Slider<Real, Tangent> roll(roll_k, roll_eta, v_roll, times.advance,
                                    turning.memory(memory.rolling));
@@ -242,19 +241,18 @@ APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Re
     out.torque_j = arm_j * torque;
   }
   if constexpr (twisting && !Frame::planar) {
-    const Real a = c.R * s2, inv_a = c.inv_R * inv_s2;
-    const Real share = 0.5 * a * a;    // eq (31)
+    const Real a = c.R * s2, share = 0.5 * a * a;    // eq (31)
     const Real twist_rate = dot(in.spin_i - in.spin_j, mid.n);
     const Slider<Real, Real> twist(share * kt, share * eta_t, twist_rate, times.advance,
                                    memory.twisting);
-    const Real torque = twist.force(c.twist * (2.0 / 3.0) * a * slip_limit, 1.0,
-                                    2.0 * inv_a * inv_a * c.inv_kt * inv_s2, memory.twisting);
+    const Real torque = twist.force(c.twist * s2 * slip_limit, 1.0,
+                                    c.inv_twist * inv_s2 * inv_s2 * inv_s2, memory.twisting);
     out.twisting = torque;
     out.torque_i = out.torque_i + torque * frame.n;
     out.torque_j = out.torque_j - torque * frame.n;
   }
   if constexpr (rolling) {
-    const Real limit = closed * roll_k * c.roll_limit;
+    const Real limit = roll_k * c.roll_limit;
     const auto moment = roll.force(limit, inv_roll, c.inv_roll_k * inv_s2 * inv_s, memory.rolling);
     out.rolling = -frame.torque_of_force(moment);    // moment x n, eq (15)
     out.torque_i = out.torque_i + out.rolling;

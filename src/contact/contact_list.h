@@ -139,9 +139,9 @@ class ContactList {
   double energy_above_rest(int k) const
   {
     const auto &c = kinds.constants(kind[k]);
-    const JKR normal{c.R, c.K, c.neck};
-    const double s = jkr_root(overlap(k), c.inv_R, c.neck);
-    const double least = normal.energy(std::cbrt(6.0) * c.neck);    // where the force is 0
+    const JKR normal{c.R, c.K, c.root_unit};
+    const double s = normal.root(overlap(k));
+    const double least = normal.energy(std::cbrt(6.0) * normal.neck);    // where the force is 0
     double sliding2 = 0.0;
     for (const double component : history_of(k).sliding) sliding2 += component * component;
     return normal.energy(s) - least + 0.5 * c.kt * s * s * sliding2;

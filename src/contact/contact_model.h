@@ -73,15 +73,19 @@ template <class Real> struct ConstantsOf {
   Real arm_share;        // share of the overlap taken from i's arm                           [-]
   Real R;                // effective radius                                             [length]
   Real inv_R;            // 1 / R                                                      [1/length]
-  Real K;                // elastic force: K s^3 (s^3 - 6 neck^3)                         [force]
-  Real neck;             // s where the neck ends                                             [-]
+  Real K;                // elastic force: K s^3 (s^3 - neck6)                            [force]
+  Real neck6;            // 6 neck^3, 0 without adhesion                                      [-]
+  Real kn;               // stiffness of Hertz's law, of which dashpots are: kn s^2  [force/length]
+  Real root_unit;        // s where the neck ends, see JKR::root_unit()                       [-]
+  Real root_scale;       // see JKR::root_scale()                                      [1/length]
   Real break_overlap;    // contact ends below this overlap (<= 0)                       [length]
   Real eta;              // damping: eta s = alpha sqrt(m k_N)                        [mass/time]
   Real kt;               // tangential stiffness: kt s^2 = 8 G a                   [force/length]
   Real inv_kt;           // 1 / kt; 0 where kt is
   Real mu;               // sliding friction                                                  [-]
   Real adhesion;         // 2 F_C in the friction limit mu |F_e + 2 F_C|                  [force]
-  Real twist;            // in the limit of twisting: 1, less for a scaled stiffness, 0 without [-]
+  Real twist;            // limit of twisting: twist s^2 times that of sliding            [length]
+  Real inv_twist;        // times s^-6: 1 / stiffness of twisting            [1/(force length)]
   Real roll_k;           // rolling stiffness: roll_k s^3 = 4 F_C (a/a0)^(3/2)            [force]
   Real inv_roll_k;       // 1 / roll_k; 0 where roll_k is
   Real roll_limit;       // xi_crit = theta_crit R                                       [length]
@@ -110,7 +114,10 @@ struct ContactConstants : ConstantsOf<double> {
     c.R = bodies.R;
     c.inv_R = 1.0 / bodies.R;
     c.K = normal.K;
-    c.neck = normal.neck;
+    c.neck6 = 6.0 * normal.neck3();
+    c.kn = normal.K / bodies.R;
+    c.root_unit = normal.root_unit();
+    c.root_scale = normal.root_scale();
     c.break_overlap = -model.neck_share() * normal.pulloff_overlap();
     c.eta = model.alpha * std::sqrt(bodies.m * normal.K / bodies.R);
     c.lag = 0.5 * c.eta / bodies.m;
@@ -118,7 +125,9 @@ struct ContactConstants : ConstantsOf<double> {
     c.inv_kt = c.kt > 0.0 ? 1.0 / c.kt : 0.0;
     c.mu = model.mu;
     c.adhesion = 2.0 * normal.pulloff_force() * restore;
-    c.twist = model.twisting ? std::pow(f, 0.2) : 0.0;    // (43) has a, which grows as f^(-1/5)
+    // (43) has a, which grows as f^(-1/5)
+    c.twist = model.twisting ? 2.0 / 3.0 * bodies.R * std::pow(f, 0.2) : 0.0;
+    c.inv_twist = 2.0 * c.inv_R * c.inv_R * c.inv_kt;
     c.roll_k = 6.0 * normal.K * normal.neck3() * restore;
     c.inv_roll_k = c.roll_k > 0.0 ? 1.0 / c.roll_k : 0.0;
     c.roll_limit = model.theta_crit * bodies.R;

@@ -16,6 +16,8 @@
 
 #include "vector.h"
 
+#include <algorithm>
+
 namespace apf {
 
 constexpr double pi = 3.14159265358979323846;
@@ -41,6 +43,11 @@ struct JKR {
     return equilibrium_radius() * equilibrium_radius() / (3.0 * R);
   }
 
+  // Of the solver below: neck, or a length that is nothing beside any s; and 1 / (R unit^4).
+  double root_unit() const { return std::max(neck, 1.0e-20); }
+  double root_scale() const { return 1.0 / (R * std::pow(root_unit(), 4)); }
+  double root(double overlap) const;    // s = sqrt(a/R) on the stable branch
+
   double overlap(double s) const { return R * s * (s * s * s - 4.0 * neck3()); }
   double force(double s) const { return K * s * s * s * (s * s * s - 6.0 * neck3()); }
 
@@ -53,27 +60,31 @@ struct JKR {
 };
 
 // s = sqrt(a/R) on the stable branch for a given overlap. Branch-free; overlap < -delta_C gives
-// the end of the neck. With t = s - m the law reads t^2 (t^2 + 4 m t + 6 m^2) = x; the start is the
-// root of a quadratic that follows t(x) within 2.5 % over all x, and two Halley steps bring that to
-// rounding error: each leaves about the cube of the error before, so four digits do until the last
-// division. The pole of dF/d(overlap) at the end of the neck does no harm in t.
+// the end of the neck. With s = m (1 + u) the law reads u^2 (u^2 + 4 u + 6) = y, y = 3 + overlap /
+// (R m^4); f, f1, f2 are what is left of it and its derivatives, over 4, 4 and 12. The start is the
+// root of a quadratic that follows u(y) within 2.5 % over all y, and two Halley steps bring that to
+// rounding error: each leaves about the cube of the error before, so that four digits do in the
+// first division, and twelve in the last. The pole of dF/d(overlap) at the end of the neck does no
+// harm in u.
 template <class Real>
-APF_INLINE Real jkr_root(const Real &overlap, const Real &inv_R, const Real &neck)
+APF_INLINE Real jkr_root(const Real &overlap, const Real &scale, const Real &unit)
 {
-  const Real m2 = neck * neck;
-  const Real x = larger(overlap * inv_R + 3.0 * m2 * m2, 1.0e-60);    // keeps 0/0 away at the end
-  const Real h = 1.2 * neck;    // 1.2 and two steps: least error, scanned over 22 decades of x
-  const Real c1 = 4.0 * neck, c0 = 6.0 * m2;
-  const Real root = rough_root(x);
-  Real t = root * rough_inverse(h + rough_root(h * h + root));
+  const Real y = larger(0.25 * scale * overlap + 0.75, 1.0e-60);    // keeps 0/0 away at the end
+  const Real root = rough_root(y);
+  // 0.6 = 1.2/2 and two steps: least error, scanned over 22 decades of y
+  Real u = root * rough_inverse(0.6 + rough_root(0.36 + 0.5 * root));
   for (int step = 0; step < 2; step++) {
-    const Real f = t * t * (t * (t + c1) + c0) - x;
-    const Real f1 = t * (t * (4.0 * t + 3.0 * c1) + 2.0 * c0);
-    const Real f2 = t * (12.0 * t + 6.0 * c1) + 2.0 * c0;
-    const Real divisor = 2.0 * f1 * f1 - f * f2;
-    t = t - 2.0 * f * f1 * (step == 0 ? rough_inverse(divisor) : inverse(divisor));
+    const Real w = u + 1.0, f2 = w * w, f1 = u * (f2 + w + 1.0);
+    const Real f = u * u * (u * (0.25 * u + 1.0) + 1.5) - y;
+    const Real divisor = f1 * f1 - 1.5 * f * f2;
+    u = u - f * f1 * (step == 0 ? rough_inverse(divisor) : close_inverse(divisor));
   }
-  return neck + t;
+  return unit * u + unit;
+}
+
+inline double JKR::root(double overlap) const
+{
+  return jkr_root(overlap, root_scale(), root_unit());
 }
 
 }    // namespace apf

@@ -25,10 +25,9 @@ template <class Constants, class Real>
 APF_INLINE Real force_at(const Constants &c, const Real &s, const Real &closing_speed,
                          const Real &mass, double step)
 {
-  const Real s3 = s * s * s, neck3 = c.neck * c.neck * c.neck;
-  const Real eta =
-      stable_dashpot(lagging_dashpot(c, s, 0.5 * step), c.K * c.inv_R * s * s, mass, step);
-  return c.K * s3 * (s3 - 6.0 * neck3) + eta * closing_speed;
+  const Real s2 = s * s, s3 = s2 * s;
+  const Real eta = stable_dashpot(lagging_dashpot(c, s, 0.5 * step), c.kn * s2, mass, step);
+  return c.K * s3 * (s3 - c.neck6) + eta * closing_speed;
 }
 
 // What a body's load has beside the forces of its contacts.
@@ -64,8 +63,8 @@ void correct_touch(const ContactList &list, int k, Row *rows, double step,
   const auto c = list.constants_of(k);
   const auto approach = Approach::of(rows[list.i[k]], rows[list.j[k]], c.radius_sum);
   const double moved = step * approach.closing_speed;
-  if (!(moved > 0.0) || -approach.gap > moved) return;    // it was there before: no jump
-  const double touching = std::cbrt(4.0) * c.neck;        // where the overlap is 0
+  if (!(moved > 0.0) || -approach.gap > moved) return;     // it was there before: no jump
+  const double touching = std::cbrt(4.0) * c.root_unit;    // where the overlap is 0
   const double share = -approach.gap / moved - 0.5;
   push_apart(rows, list.i[k], list.j[k],
              share * force_at(c, touching, approach.closing_speed, c.crowd_mass, step), due);
@@ -80,7 +79,7 @@ void correct_end(const ContactList &list, int k, Row *rows, double step, std::ve
   const double moved = -step * approach.closing_speed;
   const double beyond = c.break_overlap + approach.gap;
   if (!(moved > 0.0) || beyond > moved) return;
-  const double s = jkr_root(c.break_overlap, c.inv_R, c.neck);
+  const double s = jkr_root(c.break_overlap, c.root_scale, c.root_unit);
   push_apart(rows, list.i[k], list.j[k],
              (0.5 - beyond / moved) * force_at(c, s, approach.closing_speed, c.crowd_mass, step),
              due);

@@ -29,7 +29,8 @@ template <class Frame> using RowOf = std::conditional_t<Frame::planar, PlaneRow,
 // contact between copies of its bodies, so that all groups are treated alike.
 template <class Row> struct Members {
   Row *i[width], *j[width];
-  int kind[width];
+  const int *kind;
+  int filled[width];    // kinds of an incomplete group
 
   template <class List> APF_INLINE Members(const List &list, Row *rows, int first, Row (&copies)[2])
   {
@@ -38,15 +39,16 @@ template <class Row> struct Members {
     if (n >= width) {
       for (int l = 0; l < width; l++) i[l] = rows + of_i[l];
       for (int l = 0; l < width; l++) j[l] = rows + of_j[l];
-      std::memcpy(kind, of_kind, sizeof(kind));
+      kind = of_kind;
     } else {
       copies[0] = rows[of_i[n - 1]];
       copies[1] = rows[of_j[n - 1]];
       for (int l = 0; l < width; l++) {
         i[l] = l < n ? rows + of_i[l] : copies;
         j[l] = l < n ? rows + of_j[l] : copies + 1;
-        kind[l] = of_kind[l < n ? l : n - 1];
+        filled[l] = of_kind[l < n ? l : n - 1];
       }
+      kind = filled;
     }
   }
 };
@@ -55,9 +57,11 @@ template <class Row> struct Members {
 template <template <class> class Constants, class Kind> class GroupConstants {
  public:
   GroupConstants() { std::fill(loaded, loaded + width, -1); }
-  APF_INLINE const Constants<Real> &of(const Kinds<Kind> &kinds, const int (&wanted)[width])
+  APF_INLINE const Constants<Real> &of(const Kinds<Kind> &kinds, const int *wanted)
   {
-    if (std::memcmp(wanted, loaded, sizeof(loaded)) != 0) load(kinds, wanted);
+    int differences = 0;
+    for (int l = 0; l < width; l++) differences |= wanted[l] ^ loaded[l];
+    if (differences) load(kinds, wanted);
     return constants;
   }
 
@@ -67,7 +71,7 @@ template <template <class> class Constants, class Kind> class GroupConstants {
   Constants<Real> constants;
   int loaded[width];
 
-  __attribute__((noinline)) void load(const Kinds<Kind> &kinds, const int (&wanted)[width])
+  __attribute__((noinline)) void load(const Kinds<Kind> &kinds, const int *wanted)
   {
     const double *from[width];
     for (int l = 0; l < width; l++)
@@ -79,7 +83,7 @@ template <template <class> class Constants, class Kind> class GroupConstants {
             return apf::load<decltype(type)>(from[l] + c + part);
           },
           *reinterpret_cast<Real(*)[4]>(to + c));
-    std::memcpy(loaded, wanted, sizeof(loaded));
+    std::copy_n(wanted, width, loaded);
   }
 };
 

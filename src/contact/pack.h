@@ -147,7 +147,14 @@ template <int bytes> struct Pack {
         },
         a, b);
   }
-  friend APF_INLINE Pack magnitude(const Pack &a) { return larger(a, -a); }
+  friend APF_INLINE Pack magnitude(const Pack &a)
+  {
+    return each(
+        [](Register x) {
+          return Register(Bits(x) & 0x7fffffffffffffff);
+        },
+        a);
+  }
   friend APF_INLINE Pack norm2(const Pack &a) { return a * a; }
   friend APF_INLINE Pack select(const Mask &mask, const Pack &a, const Pack &b)
   {
@@ -180,6 +187,10 @@ template <int bytes> APF_INLINE Pack<bytes> rough_inverse(const Pack<bytes> &a)
 {
   return 1.0 / a;
 }
+template <int bytes> APF_INLINE Pack<bytes> close_inverse(const Pack<bytes> &a)
+{
+  return 1.0 / a;
+}
 template <int bytes> APF_INLINE Pack<bytes> inverse_root(const Pack<bytes> &a)
 {
   return 1.0 / sqrt(a);
@@ -206,6 +217,15 @@ APF_INLINE Pack<64> rough_root(const Pack<64> &a)
   return Pack<64>::each(
       [](Octet x) {
         return x * estimate_inverse_root(x);
+      },
+      a);
+}
+APF_INLINE Pack<64> close_inverse(const Pack<64> &a)
+{
+  return Pack<64>::each(
+      [](Octet x) {
+        const Octet y = estimate_inverse(x), error = 1.0 - x * y;
+        return y + y * (error + error * error);    // leaves the cube of the error
       },
       a);
 }
@@ -244,12 +264,6 @@ APF_INLINE Pack<64> inverse_root(const Pack<64> &a)
       a);
 }
 
-// one by one is quicker here than by one division for all
-template <class... Packs> APF_INLINE void invert(Pack<64> &a, Packs &...others)
-{
-  a = inverse(a);
-  ((others = inverse(others)), ...);
-}
 #endif
 
 // ---- rows of numbers in memory, one row per contact, to Packs and back, by transposing registers

@@ -23,16 +23,15 @@ template <class Real, class Displacement> struct Slider {
 
   Displacement stretched, dashpot, trial;
   Real size;    // of the trial force; never 0
-  double active;
 
   //   k      spring constant
   //   eta    dashpot constant
-  //   v, dt  velocity of the slip and time since the last step; dt = 0 leaves the history alone
+  //   v, dt  velocity of the slip and time since the last step
   //   xi     spring elongation
   APF_INLINE Slider(const Real &k, const Real &eta, const Displacement &v, double dt,
                     const Displacement &xi) :
       stretched(xi + Real(dt) * v),
-      dashpot(eta * v), trial(k * stretched + dashpot), active(dt > 0.0 ? 1.0 : 0.0)
+      dashpot(eta * v), trial(k * stretched + dashpot)
   {
     using std::sqrt;
     if constexpr (straight)
@@ -53,7 +52,7 @@ template <class Real, class Displacement> struct Slider {
       held = smaller(larger(trial, -limit), limit);
     else
       held = smaller(limit * inv_size, 1.0) * trial;
-    xi = select(limit < active * size, inv_k * (held - dashpot), stretched);
+    xi = select(limit < size, inv_k * (held - dashpot), stretched);
     return -held;
   }
 };

@@ -95,12 +95,16 @@ template <class Real> struct Vector3 {
 using Vec2 = Vector2<double>;
 using Vec3 = Vector3<double>;
 
-// Roots and reciprocals where four digits do; a Pack may have quicker ones.
+// Roots and reciprocals where four digits do, or twelve; a Pack may have quicker ones.
 APF_INLINE double rough_root(double a)
 {
   return std::sqrt(a);
 }
 APF_INLINE double rough_inverse(double a)
+{
+  return 1.0 / a;
+}
+APF_INLINE double close_inverse(double a)
 {
   return 1.0 / a;
 }

@@ -35,6 +35,7 @@ struct LookAhead {
   void begin(int bodies)
   {
     activity.assign(bodies, FREE);
+    acceleration.assign(bodies, 0.0);
     used.assign(bodies, 0);
     fastest = 0.0;
   }

@@ -79,8 +79,7 @@ struct ContactScales {
     c.rest_overlap = normal.equilibrium_overlap();
     // (1/2) m V_s^2 = work from first touch (s^3 = 4 m^3) to the end of the neck
     const double touch = std::cbrt(4.0) * normal.neck;
-    const double end =
-        jkr_root(-wet.dry.neck_share() * normal.pulloff_overlap(), 1.0 / bodies.R, normal.neck);
+    const double end = normal.root(-wet.dry.neck_share() * normal.pulloff_overlap());
     c.sticking_speed = std::sqrt(2.0 * (normal.energy(end) - normal.energy(touch)) / bodies.m);
     const StiffestMode dry = stiffest_mode(wet.dry, bodies);
     c.rest = stiffest_mode(wet, bodies, smaller_radius);

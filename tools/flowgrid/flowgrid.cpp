@@ -6,6 +6,7 @@
 #include "options.h"
 #include "progress.h"
 #include "report.h"
+#include "surface_input.h"
 #include "vtk_guard.h"
 #include "vtk_input.h"
 #include "vtkhdf_writer.h"
@@ -15,7 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 using namespace flowgrid;
@@ -115,6 +116,18 @@ void tell_slip(size_t wall_points, const Quality &q)
            wall_points, q.slip);
 }
 
+// Told before a long mapping: surfaces that are not there, or that would be written over.
+void check_surface_files(const Options &o)
+{
+  for (const auto &words : o.surfaces) {
+    const std::string path = surface_file(words);
+    std::error_code none;
+    if (std::filesystem::equivalent(path, o.isosurface, none))
+      throw std::runtime_error(o.isosurface + ": --isosurface would write over the file of " +
+                               "--wall-surface " + words);
+  }
+}
+
 void map(const Options &o)
 {
   using Clock = std::chrono::steady_clock;
@@ -210,6 +223,7 @@ int main(int argc, char **argv)
   const Options options = parse(argc, argv);
   guard_against_files();
   try {
+    check_surface_files(options);
     if (options.input.empty())
       map_walls(options);
     else

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 
 namespace flowgrid {
 
@@ -32,7 +33,7 @@ OUTPUT  VTKHDF ImageData for fix flow/field file and fix wall/levelset file; Par
 
 Walls, of which signed distances are written, > 0 in the fluid:
   --distance                 those of the mesh
-  --wall-surface FILE[:NAME] triangles of an .stl, .vtp, .ply or .obj file; may be repeated
+  --wall-surface FILE[:NAME] triangles of an .stl, .vtp or .obj file; may be repeated
   --shape "NAME: SHAPE"      a solid; may be repeated. SHAPE is
                                box(X1,Y1,Z1, X2,Y2,Z2), sphere(X,Y,Z, R),
                                cylinder(X1,Y1,Z1, X2,Y2,Z2, R), plane(X,Y,Z, NX,NY,NZ) solid behind,
@@ -64,6 +65,11 @@ double number(const std::string &option, const char *word)
   return value;
 }
 
+static bool ends_in(const std::string &name, const std::string &end)
+{
+  return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
 Options parse(int argc, char **argv)
 {
   Options o;
@@ -86,8 +92,12 @@ Options parse(int argc, char **argv)
     char *end;
     return k < argc && (strtod(argv[k], &end), end != argv[k] && !*end);
   };
+  const std::set<std::string> repeatable{"--wall", "--shape", "--wall-surface", "--periodic"};
+  std::set<std::string> given;
   for (; i < argc; i++) {
     const std::string word = argv[i];
+    if (word.compare(0, 2, "--") == 0 && !repeatable.count(word) && !given.insert(word).second)
+      usage(word + " is given twice");
     if (word == "--help" || word == "-h") {
       fputs(help, stdout);
       exit(0);
@@ -156,11 +166,12 @@ Options parse(int argc, char **argv)
   if (o.output.empty() && o.has_walls() && !o.mesh_walls) std::swap(o.input, o.output);
   if (o.output.empty()) usage("INPUT and OUTPUT are needed");
   // whoever mixes up the names would lose a mesh
-  if (o.output.size() < 7 || o.output.substr(o.output.size() - 7) != ".vtkhdf")
-    usage("OUTPUT must end in .vtkhdf, got " + o.output);
+  if (!ends_in(o.output, ".vtkhdf")) usage("OUTPUT must end in .vtkhdf, got " + o.output);
   if (o.input.empty() && o.bounds.empty()) usage("a geometry without a flow needs --bounds");
   if (!o.isosurface.empty() && !o.has_walls())
     usage("--isosurface needs walls: --distance, --shape or --wall-surface");
+  if (!o.isosurface.empty() && !ends_in(o.isosurface, ".vtp") && !ends_in(o.isosurface, ".stl"))
+    usage("--isosurface must end in .vtp or .stl, got " + o.isosurface);
   if (o.spacing.empty()) usage("--spacing is needed");
   return o;
 }

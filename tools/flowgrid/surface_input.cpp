@@ -48,7 +48,6 @@ namespace {
   vtkSmartPointer<vtkPolyData> read(const std::string &path)
   {
     const std::string end = std::filesystem::path(path).extension().string();
-    if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": does not exist");
     vtkObject::GlobalWarningDisplayOff();
     vtkNew<vtkTriangleFilter> triangles;
     triangles->PassLinesOff();
@@ -78,10 +77,17 @@ namespace {
 
 }    // namespace
 
+std::string surface_file(const std::string &words)
+{
+  const std::string path = words.substr(0, words.rfind(':'));
+  if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": does not exist");
+  return path;
+}
+
 void read_surface(const std::string &words, double scale, Surface &surface)
 {
   const size_t colon = words.rfind(':');
-  const std::string path = words.substr(0, colon);
+  const std::string path = surface_file(words);
   const std::string name = colon == std::string::npos ? std::filesystem::path(path).stem().string()
                                                       : words.substr(colon + 1);
   check_zone_name(name);

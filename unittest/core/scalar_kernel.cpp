@@ -115,7 +115,7 @@ namespace {
       if (rolling) copy_tangent(memory.rolling, h.rolling);
       if (twisting && !Frame::planar) h.twisting = memory.twisting;
       if ((sliding || rolling) && !Frame::planar) copy(memory.normal, h.normal);
-      list.update(k, out.overlap, h);
+      list.update(k, out.overlap, times.advance > 0.0 ? h : list.history_of(k));
       ended += list.ended(k);
     }
     return ended;

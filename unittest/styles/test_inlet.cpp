@@ -1,81 +1,10 @@
 // fix inlet/flow: the flux that was asked for enters, nowhere on top of another particle, at the
-// fluid's own motion; and every number is accounted for, on any number of ranks and over a restart.
+// fluid's own motion; and every number is accounted for.
 
-#include "scenes.h"
+#include "inlet_scene.h"
 #include "vtkhdf_writer.h"
 
-#include <algorithm>
-#include <array>
-
 namespace {
-
-// a box 20 x 10 x 10, closed along x, periodic across; particles that have entered move on
-std::string box(const std::string &across = "p p", const std::string &more = "")
-{
-  return "units lj\natom_style sphere\natom_modify map array\ncomm_modify vel yes\nboundary f " +
-      across + "\nregion box block 0 20 0 10 0 10\ncreate_box 1 box\n" +
-      "neighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\n"
-      "pair_style granular/adhesive\n"
-      "pair_coeff * * jkr 1e4 0.3 0.1 damping tsuji 0.5 sliding 0.3\n"
-      "fix move all nve/sphere\ntimestep 0.01\n" +
-      more;
-}
-const std::string fluid = " density 1 viscosity 1\n";
-const std::string uniform = "fix air all flow/field uniform 1 0 0" + fluid;
-const std::string particle = " diameter 0.5 density 2 type 1 seed 4711 ";
-
-// all particles of all ranks by ID; IDs have holes where particles have left
-struct Inside {
-  std::vector<double> tag, x, v, omega, radius;
-};
-Inside inside(Simulation &sim)
-{
-  const auto *atom = sim.lammps()->atom;
-  std::vector<double> mine;
-  for (int i = 0; i < atom->nlocal; i++) {
-    mine.push_back(static_cast<double>(atom->tag[i]));
-    for (double **a : {atom->x, atom->v, atom->omega}) mine.insert(mine.end(), a[i], a[i] + 3);
-    mine.push_back(atom->radius[i]);
-  }
-  int n = static_cast<int>(mine.size()), ranks;
-  MPI_Comm_size(sim.lammps()->world, &ranks);
-  std::vector<int> counts(ranks), starts(ranks, 0);
-  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, sim.lammps()->world);
-  for (int r = 1; r < ranks; r++) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<std::array<double, 11>> all((starts.back() + counts.back()) / 11);
-  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
-                 sim.lammps()->world);
-  std::sort(all.begin(), all.end());
-  Inside result;
-  for (const auto &row : all) {
-    result.tag.push_back(row[0]);
-    result.x.insert(result.x.end(), &row[1], &row[4]);
-    result.v.insert(result.v.end(), &row[4], &row[7]);
-    result.omega.insert(result.omega.end(), &row[7], &row[10]);
-    result.radius.push_back(row[10]);
-  }
-  return result;
-}
-
-double smallest_gap(Simulation &sim, const double *period)
-{
-  const auto all = inside(sim);
-  const auto &x = all.x;
-  const auto &radius = all.radius;
-  double smallest = 1e30;
-  for (size_t i = 0; i < radius.size(); i++)
-    for (size_t j = 0; j < i; j++) {
-      double d2 = 0.0;
-      for (int c = 0; c < 3; c++) {
-        double d = x[3 * i + c] - x[3 * j + c];
-        if (period[c] > 0.0) d -= period[c] * std::round(d / period[c]);
-        d2 += d * d;
-      }
-      smallest = std::min(smallest, std::sqrt(d2) - radius[i] - radius[j]);
-    }
-  return smallest;
-}
-const double periodic_yz[3] = {0.0, 10.0, 10.0};
 
 // sum of (observed - expected)^2 / expected over bins of equal expectation
 double chi_square(std::vector<double> u, int bins)
@@ -97,7 +26,7 @@ TEST(Inlet, flux_over_ten_thousand_steps)
 {
   // c0 u A = 0.005 x (2/3 of 1.5) x 100; a thousandth of what entered is less than one particle
   Simulation sim;
-  sim.run(box() + "timestep 0.05\nfix air all flow/field channel x y 0 10 1.5" + fluid +
+  sim.run(box() + "timestep 0.05\nfix air all flow/field channel x y 0 10 1.5" + unit_fluid +
           "fix in all inlet/flow x 0 air concentration 0.005" + particle +
           "outlet x 10\nfix drag all flow/force air drag stokes\nrun 10000\n");
   const double size = pi / 6.0 * 0.125, flux = 0.005 * 1.0 * 100.0, time = 500.0;
@@ -150,7 +79,7 @@ TEST(Inlet, places_follow_the_flux)
 {
   // the flux below y is that of the parabola, s^2 (3 - 2 s); particles small enough to feel no edge
   Simulation sim;
-  sim.run(box() + "fix air all flow/field channel x y 0 10 1.5" + fluid +
+  sim.run(box() + "fix air all flow/field channel x y 0 10 1.5" + unit_fluid +
           "fix in all inlet/flow x 0 air number 20000 diameter 1e-4 density 2 type 1 seed 7\n"
           "pair_coeff * * jkr 1e4 0.3 0\nrun 1\n");
   ASSERT_EQ(sim.value("f_in[1]"), 20000.0);
@@ -217,7 +146,7 @@ TEST(Inlet, enters_through_any_plane_in_both_directions)
                                    {"z 1", "0 0 2", 2, 1, 2}, {"-z 9", "0 0 -2", 2, 9, -2}};
   for (const auto &one : cases) {
     Simulation sim;
-    sim.run(box() + "fix air all flow/field uniform " + one.flow + fluid +
+    sim.run(box() + "fix air all flow/field uniform " + one.flow + unit_fluid +
             "fix in all inlet/flow " + one.plane + " air number 50" + particle + "\nrun 1\n");
     const auto x = inside(sim).x;
     ASSERT_EQ(x.size(), 150u) << one.plane;
@@ -252,7 +181,7 @@ TEST(Inlet, in_the_plane_concentration_is_by_area)
 TEST(Inlet, what_entered_is_inside_or_has_left)
 {
   Simulation sim;
-  sim.run(box() + "fix air all flow/field uniform 10 0 0" + fluid +
+  sim.run(box() + "fix air all flow/field uniform 10 0 0" + unit_fluid +
           "fix in all inlet/flow x 0 air concentration 0.03" + particle + "outlet x 12\n");
   double left = 0.0;
   for (int n = 0; n < 8; n++) {
@@ -285,7 +214,7 @@ TEST(Inlet, flow_that_pulsates_and_turns_back)
   sim.run(box() +
           "variable u equal 1.0+1.5*sin(2*PI*step*0.01)\nfix air all flow/field uniform v_u "
           "0 0" +
-          fluid + "fix in all inlet/flow x 1 air concentration 0.05" + particle +
+          unit_fluid + "fix in all inlet/flow x 1 air concentration 0.05" + particle +
           "\nfix drag all flow/force air drag stokes\nrun 300\n");
   double sum = 0.0;
   for (int n = 0; n < 300; n++) sum += std::max(1.0 + 1.5 * std::sin(2.0 * pi * 0.01 * n), 0.0);
@@ -365,7 +294,7 @@ TEST(Inlet, walls_that_the_file_of_the_flow_knows)
     });
   }
   Simulation sim;
-  sim.run(box() + "fix air all flow/field file " + file + fluid +
+  sim.run(box() + "fix air all flow/field file " + file + unit_fluid +
           "fix in all inlet/flow x 0 air number 150 every 1" + particle +
           "\ntimestep 1.0\nrun 1\n");
   std::filesystem::remove(file);
@@ -376,174 +305,4 @@ TEST(Inlet, walls_that_the_file_of_the_flow_knows)
     farthest = std::max(farthest, std::fabs(x[3 * i + 1] - 5.0));
   EXPECT_LE(farthest, 2.75 + 1e-9);
   EXPECT_GT(farthest, 2.3);
-}
-
-namespace {
-const std::string shared_scene = box("p p", "") + "fix air all flow/field channel x y 0 10 3" +
-    fluid +
-    "fix in all inlet/flow x 0 air concentration 0.05 diameter lognormal 0.3 1.3 0.1 0.8 density 2 "
-    "type 1 seed 99 outlet x 17\nfix drag all flow/force air drag stokes torque yes\n";
-}
-
-TEST(Inlet, goes_on_from_a_restart_as_if_nothing_had_been)
-{
-  const std::string file = scratch_file("restart");
-  std::vector<double> x, radius;
-  double counts[10];
-  {
-    Simulation sim;
-    sim.run(shared_scene + "run 300\nwrite_restart " + file + "\nrun 400\n");
-    x = inside(sim).x;
-    radius = inside(sim).radius;
-    for (int n = 0; n < 10; n++) counts[n] = sim.value("f_in[" + std::to_string(n + 1) + "]");
-  }
-  Simulation sim;
-  std::string again = shared_scene.substr(shared_scene.find("neighbor 0.3"));
-  sim.run("read_restart " + file + "\ncomm_modify vel yes\n" + again + "run 400\n");
-  std::filesystem::remove(file);
-  ASSERT_GT(x.size(), 300u);
-  EXPECT_EQ(inside(sim).radius, radius);
-  EXPECT_LT(difference(inside(sim).x, x), 1e-12);
-  for (int n = 0; n < 10; n++)
-    EXPECT_NEAR(sim.value("f_in[" + std::to_string(n + 1) + "]"), counts[n],
-                1e-12 * std::fabs(counts[n]))
-        << n;
-  EXPECT_GT(counts[8], 0.0);
-}
-
-TEST(RanksInlet, the_same_particles_enter_on_any_number_of_ranks)
-{
-  const std::string scene = shared_scene + "fix even all balance 50 1.0 shift xy 5 1.0\nrun 650\n";
-  Inside alone;
-  double counts[10];
-  {
-    Simulation sim({}, MPI_COMM_SELF);
-    sim.run(scene);
-    for (int n = 0; n < 10; n++) counts[n] = sim.value("f_in[" + std::to_string(n + 1) + "]");
-    alone = inside(sim);
-  }
-  Simulation sim;
-  sim.run(scene);
-  const auto all = inside(sim);
-  ASSERT_GT(all.tag.size(), 800u);
-  EXPECT_EQ(all.tag, alone.tag);
-  EXPECT_EQ(all.radius, alone.radius);
-  EXPECT_LT(difference(all.x, alone.x), 1e-12);
-  EXPECT_LT(difference(all.omega, alone.omega), 1e-12);
-  for (int n = 0; n < 10; n++)
-    EXPECT_EQ(sim.value("f_in[" + std::to_string(n + 1) + "]"), counts[n]) << n;
-  EXPECT_GT(counts[8], 0.0) << "some have left";
-}
-
-// The same where the box shrinks onto the particles, tiles are balanced, and a run is resumed
-TEST(RanksInlet, shrink_wrapped_box_tiles_and_restart)
-{
-  const std::string scene = "comm_style tiled\ncomm_modify vel yes\n"
-                            "fix air all flow/field uniform -1 0 0" +
-      fluid +
-      "fix in all inlet/flow -x 15 air concentration 0.08 diameter uniform 0.4 0.8 density 2 "
-      "type 1 seed 5 outlet -x 12 window 3 9 3 9\nfix even all balance 50 1.0 rcb\n";
-  std::string shrinks = box();
-  shrinks.replace(shrinks.find("boundary f"), 10, "boundary s");
-  const std::string ends = "create_atoms 1 single 20 1 1\ncreate_atoms 1 single 14 1 1\n"
-                           "set group all diameter 0.5 density 2\n";
-  Inside alone;
-  std::vector<double> counts;
-  auto count = [](Simulation &sim) {
-    std::vector<double> all;
-    for (int n = 1; n <= 10; n++) all.push_back(sim.value("f_in[" + std::to_string(n) + "]"));
-    return all;
-  };
-  {
-    Simulation sim({}, MPI_COMM_SELF);
-    sim.run(shrinks + scene + ends + "run 233\nrun 267\n");
-    alone = inside(sim);
-    counts = count(sim);
-  }
-  const std::string file = scratch_file("restart");
-  {
-    Simulation sim;
-    sim.run(shrinks + scene + ends + "run 233\nwrite_restart " + file);
-  }
-  Simulation sim;
-  sim.run("read_restart " + file + "\n" + box().substr(box().find("neighbor 0.3")) + scene +
-          "run 267\n");
-  MPI_Barrier(MPI_COMM_WORLD);
-  std::filesystem::remove(file);
-  const auto all = inside(sim);
-  ASSERT_GT(all.tag.size(), 60u);
-  EXPECT_EQ(all.tag, alone.tag);
-  EXPECT_EQ(all.radius, alone.radius);
-  EXPECT_LT(difference(all.x, alone.x), 1e-12);
-  const auto again = count(sim);
-  for (int n = 0; n < 10; n++) EXPECT_NEAR(again[n], counts[n], 1e-12 * counts[n]) << n;
-  EXPECT_GT(counts[8], 30.0);
-}
-
-TEST(RanksInlet, dense_inlet_has_no_overlap_across_ranks)
-{
-  Simulation sim;
-  sim.run(box() + uniform + "fix in all inlet/flow x 0 air concentration 0.12" + particle +
-          "outlet x 15\nrun 900\n");
-  EXPECT_GE(smallest_gap(sim, periodic_yz), -1e-12);
-  EXPECT_GT(sim.value("f_in[2]"), 50.0);
-  EXPECT_EQ(sim.value("f_in[1]"), sim.value("f_in[9]") + sim.value("atoms"));
-}
-
-TEST(InletErrors, an_outlet_may_be_the_end_of_the_box)
-{
-  Simulation sim;
-  sim.run(box() + uniform);
-  EXPECT_EQ(sim.error_of("fix in all inlet/flow x 0 air concentration 0.01 diameter 0.5 density 2 "
-                         "type 1 seed 3 outlet x 20\nrun 0"),
-            "");
-}
-
-TEST(InletErrors, name_what_is_wrong)
-{
-  struct Row {
-    std::string words, part;
-  };
-  const std::string good = " concentration 0.01 diameter 0.5 density 2 type 1 seed 3";
-  const std::vector<Row> rows = {
-      {"", "missing argument"},
-      {"w 0 air" + good, "plane must be x, -x, y, -y, z or -z, got w"},
-      {"x 0 air diameter 0.5 density 2 type 1 seed 3", "concentration or number"},
-      {"x 0 air number 3" + good, "not both"},
-      {"x 0 air concentration 0.7", "concentration must be in (0, 0.64]"},
-      {"x 0 air concentration -1", "got -1"},
-      {"x 0 air number 0", "number must be > 0, got 0"},
-      {"x 0 air every 0", "every must be >= 1, got 0"},
-      {"x 0 air diameter 0", "diameter must be > 0, got 0"},
-      {"x 0 air diameter uniform 0.2 0.1", "must be > smallest 0.2, got 0.1"},
-      {"x 0 air diameter lognormal 0.2 0.9 0.1 0.3", "must be > 1, got 0.9"},
-      {"x 0 air diameter lognormal 0.2 1.1 2 3", "at least 1 %"},
-      {"x 0 air diameter poly mass 1 0.1 1", "by number or volume, got mass"},
-      {"x 0 air diameter poly number 2 0.1 1", "Fix inlet/flow diameter poly takes"},
-      {"x 0 air density 0", "density must be > 0, got 0"},
-      {"x 0 air type 2", "type must be from 1 to 1, got 2"},
-      {"x 0 air seed 0", "seed must be >= 1, got 0"},
-      {"x 0 air gap -1", "gap must be >= 0, got -1"},
-      {"x 0 air attempts 0", "attempts must be >= 1, got 0"},
-      {"x 0 air window 3 2 NULL NULL", "must be > lower bound 3, got 2"},
-      {"x 0 air outlet q 3", "outlet must be"},
-      {"x 0 air outlet x -1", "would delete what enters at 0"},
-      {"x 0 air diameter lognormal 0.2 1.1 2", "missing argument"},
-      {"x 0 air speed 3", "keyword must be"},
-      {"x 0 wind" + good + "\nrun 0", "fix wind does not exist"},
-      {"x 0 move" + good + "\nrun 0", "must be of style flow/field, got nve/sphere"},
-      {"x 30 air" + good + "\nrun 0", "must lie within the box"},
-      {"x 20 air" + good + "\nrun 0", "would leave the box"},
-      {"x 0 air outlet x 20.1" + good + "\nrun 0", "outlet x = 20.1 must lie within the box"},
-      {"-x 20 air" + good + "\nrun 0", "does not enter anywhere"},
-      {"x 0 air window 0 0.4 NULL NULL" + good + "\nrun 0", "smaller than the window"},
-      {"x 0 air window -3 3 NULL NULL" + good + "\nrun 0", "must lie within the box"},
-  };
-  for (const auto &row : rows) {
-    Simulation sim;
-    sim.run(box() + uniform);
-    const auto text = sim.error_of("fix in all inlet/flow " + row.words);
-    EXPECT_NE(text.find(row.part), std::string::npos)
-        << "'" << row.part << "' expected, got '" << text << "' from: " << row.words;
-  }
 }

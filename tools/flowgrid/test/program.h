@@ -15,6 +15,9 @@ namespace flowgrid {
 
 namespace fs = std::filesystem;
 
+// icoFoam's result between two walls
+inline const std::string poiseuille = std::string(FLOWGRID_DATA) + "/poiseuille";
+
 // a folder that goes when the test ends
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("flowgrid-test-" + std::to_string(getpid()));

@@ -1,0 +1,61 @@
+// Wrong input of fix inlet/flow.
+
+#include "inlet_scene.h"
+
+TEST(InletErrors, an_outlet_may_be_the_end_of_the_box)
+{
+  Simulation sim;
+  sim.run(box() + uniform);
+  EXPECT_EQ(sim.error_of("fix in all inlet/flow x 0 air concentration 0.01 diameter 0.5 density 2 "
+                         "type 1 seed 3 outlet x 20\nrun 0"),
+            "");
+}
+
+TEST(InletErrors, name_what_is_wrong)
+{
+  struct Row {
+    std::string words, part;
+  };
+  const std::string good = " concentration 0.01 diameter 0.5 density 2 type 1 seed 3";
+  const std::vector<Row> rows = {
+      {"", "missing argument"},
+      {"w 0 air" + good, "plane must be x, -x, y, -y, z or -z, got w"},
+      {"x 0 air diameter 0.5 density 2 type 1 seed 3", "concentration or number"},
+      {"x 0 air number 3" + good, "not both"},
+      {"x 0 air concentration 0.7", "concentration must be in (0, 0.64]"},
+      {"x 0 air concentration -1", "got -1"},
+      {"x 0 air number 0", "number must be > 0, got 0"},
+      {"x 0 air every 0", "every must be >= 1, got 0"},
+      {"x 0 air diameter 0", "diameter must be > 0, got 0"},
+      {"x 0 air diameter uniform 0.2 0.1", "must be > smallest 0.2, got 0.1"},
+      {"x 0 air diameter lognormal 0.2 0.9 0.1 0.3", "must be > 1, got 0.9"},
+      {"x 0 air diameter lognormal 0.2 1.1 2 3", "at least 1 %"},
+      {"x 0 air diameter poly mass 1 0.1 1", "by number or volume, got mass"},
+      {"x 0 air diameter poly number 2 0.1 1", "Fix inlet/flow diameter poly takes"},
+      {"x 0 air density 0", "density must be > 0, got 0"},
+      {"x 0 air type 2", "type must be from 1 to 1, got 2"},
+      {"x 0 air seed 0", "seed must be >= 1, got 0"},
+      {"x 0 air gap -1", "gap must be >= 0, got -1"},
+      {"x 0 air attempts 0", "attempts must be >= 1, got 0"},
+      {"x 0 air window 3 2 NULL NULL", "must be > lower bound 3, got 2"},
+      {"x 0 air outlet q 3", "outlet must be"},
+      {"x 0 air outlet x -1", "would delete what enters at 0"},
+      {"x 0 air diameter lognormal 0.2 1.1 2", "missing argument"},
+      {"x 0 air speed 3", "keyword must be"},
+      {"x 0 wind" + good + "\nrun 0", "fix wind does not exist"},
+      {"x 0 move" + good + "\nrun 0", "must be of style flow/field, got nve/sphere"},
+      {"x 30 air" + good + "\nrun 0", "must lie within the box"},
+      {"x 20 air" + good + "\nrun 0", "would leave the box"},
+      {"x 0 air outlet x 20.1" + good + "\nrun 0", "outlet x = 20.1 must lie within the box"},
+      {"-x 20 air" + good + "\nrun 0", "does not enter anywhere"},
+      {"x 0 air window 0 0.4 NULL NULL" + good + "\nrun 0", "smaller than the window"},
+      {"x 0 air window -3 3 NULL NULL" + good + "\nrun 0", "must lie within the box"},
+  };
+  for (const auto &row : rows) {
+    Simulation sim;
+    sim.run(box() + uniform);
+    const auto text = sim.error_of("fix in all inlet/flow " + row.words);
+    EXPECT_NE(text.find(row.part), std::string::npos)
+        << "'" << row.part << "' expected, got '" << text << "' from: " << row.words;
+  }
+}
