@@ -276,7 +276,7 @@ struct BridgeConstants : BridgeConstantsOf<double>, BridgeVolumeOf<double> {
     return fitted ? fit_force * fit.force(fit_scale * h) : pull * filling(h, b);
   }
   // work that the attraction does from a gap to rupture at rest
-  double work(double h) const
+  APF_INLINE double work(double h) const
   {
     const double to = std::max(rupture, h_min), from = std::min(gap(h), to);
     double sum = attraction(h_min) * (from - std::min(h, from));

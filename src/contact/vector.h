@@ -8,8 +8,13 @@
 #include <cmath>
 
 // Laws are inlined into the kernel's loop whatever the compiler thinks of their size: a call that
-// is left over would take numbers out of their registers.
+// is left over would take numbers out of their registers. With sanitizers gcc needs more than six
+// minutes and Gbytes for such a loop, and 25 s for calls.
+#ifdef __SANITIZE_ADDRESS__
+#define APF_INLINE inline
+#else
 #define APF_INLINE inline __attribute__((always_inline))
+#endif
 
 namespace apf {
 

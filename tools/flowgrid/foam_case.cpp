@@ -12,8 +12,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <filesystem>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -24,25 +24,48 @@ namespace flowgrid {
 
 namespace {
 
+  // By hand, since words come from files: std::regex would take them for expressions, and calls
+  // itself for each character.
+  const char *const white = " \t\r\n\v\f";
+
+  bool ends_word(char c)
+  {
+    return std::strchr(white, c) || std::strchr(";{}()\"", c);
+  }
+
   // text between the braces that follow `word` in a dictionary, empty if it is not there
   std::string block_of(const std::string &text, const std::string &word)
   {
-    const std::regex head("(^|[\\s;}{)(\"])" + word + "\"?\\s*\\{");
-    std::smatch found;
-    if (!std::regex_search(text, found, head)) return {};
-    size_t at = found.position() + found.length();
-    int depth = 1;
-    const size_t begin = at;
-    for (; at < text.size() && depth > 0; at++)
-      depth += text[at] == '{' ? 1 : text[at] == '}' ? -1 : 0;
-    return text.substr(begin, at - begin - 1);
+    for (size_t at = 0; (at = text.find(word, at)) != std::string::npos; at++) {
+      if (at > 0 && !ends_word(text[at - 1])) continue;
+      size_t begin = at + word.size();
+      if (text[begin] == '"') begin++;
+      begin = text.find_first_not_of(white, begin);
+      if (begin == std::string::npos || text[begin] != '{') continue;
+      int depth = 1;
+      size_t end = ++begin;
+      for (; end < text.size() && depth > 0; end++)
+        depth += text[end] == '{' ? 1 : text[end] == '}' ? -1 : 0;
+      return text.substr(begin, end - begin - 1);
+    }
+    return {};
   }
 
+  // the word that follows `type`, and is followed by a semicolon
   std::string type_of(const std::string &block)
   {
-    std::smatch found;
-    const std::regex type("(^|[\\s;{])type\\s+(\\w+)\\s*;");
-    return std::regex_search(block, found, type) ? found[2].str() : std::string();
+    const std::string key = "type";
+    for (size_t at = 0; (at = block.find(key, at)) != std::string::npos; at += key.size()) {
+      if (at > 0 && !ends_word(block[at - 1])) continue;
+      const size_t begin = block.find_first_not_of(white, at + key.size());
+      if (begin == std::string::npos || begin == at + key.size()) continue;
+      size_t end = begin;
+      while (std::isalnum(static_cast<unsigned char>(block[end])) || block[end] == '_') end++;
+      const size_t after = block.find_first_not_of(white, end);
+      if (end > begin && after != std::string::npos && block[after] == ';')
+        return block.substr(begin, end - begin);
+    }
+    return {};
   }
 
   // of a file, or of the one that gzip made of it; empty if there is neither

@@ -1,5 +1,7 @@
 #include "vtk_guard.h"
 
+#include "foam_case.h"
+
 #include <algorithm>
 #include <cmath>
 #include <csignal>
@@ -140,20 +142,41 @@ namespace {
     return names;
   }
 
-  // The files that a file consists of, each counted once, though a block may be named many times.
+  // The files that a file or an OpenFOAM case consists of, each counted once, though a block may be
+  // named many times.
   class Parts {
    public:
-    explicit Parts(const fs::path &path) { add(path); }
-    double bytes = 0.0;    // INFINITY if they are not known, as those of an OpenFOAM case
+    explicit Parts(const fs::path &path)
+    {
+      if (FoamCase::is_path_of_one(path))
+        add_folder(fs::is_directory(path) ? path : fs::absolute(path).parent_path());
+      else
+        add(path);
+    }
+    double bytes = 0.0;    // INFINITY if they are not known
 
    private:
     std::vector<fs::path> above;    // those that name the one that is looked at
     std::set<fs::path> known;
 
+    // Links to folders are followed, as VTK does: a mesh may be kept elsewhere.
+    void add_folder(const fs::path &path)
+    {
+      const auto options = fs::directory_options::follow_directory_symlink |
+          fs::directory_options::skip_permission_denied;
+      std::error_code failed, none;
+      fs::recursive_directory_iterator it(path, options, failed);
+      for (; !failed && it != fs::end(it); it.increment(failed)) {
+        const bool fresh = known.insert(fs::canonical(it->path(), none)).second;
+        if (it->is_directory(none) && !fresh) it.disable_recursion_pending();
+        if (it->is_regular_file(none) && fresh) bytes += static_cast<double>(it->file_size(none));
+      }
+      if (failed) bytes = INFINITY;
+    }
     void add(const fs::path &path)
     {
       std::error_code none;
-      if (!fs::is_regular_file(path, none) || path.extension() == ".foam") bytes = INFINITY;
+      if (!fs::is_regular_file(path, none)) bytes = INFINITY;
       if (!std::isfinite(bytes)) return;
       const fs::path self = fs::canonical(path, none);
       if (std::find(above.begin(), above.end(), self) != above.end())

@@ -138,6 +138,44 @@ TEST_F(Trust, a_block_of_itself)
   expect_refused(run("two.vtm", block("one.vtm")), "two.vtm", "is a block of itself");
 }
 
+// A case may have as much memory as its files are worth, whichever way it is named.
+TEST_F(Trust, sizes_that_a_case_does_not_have)
+{
+  fs::copy(FLOWGRID_DATA "/poiseuille", folder / "case", fs::copy_options::recursive);
+  const std::string points = folder / "case/constant/polyMesh/points";
+  std::ifstream in(points);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string count = "\n374\n";
+  ASSERT_NE(text.find(count), std::string::npos);
+  text.replace(text.find(count), count.size(), "\n400000000\n");    // 4.8 Gbytes
+  std::ofstream(points) << text;
+  fs::create_directory_symlink(folder.path, folder / "case/loop");
+  for (const std::string name : {"case", "case/a.foam", "case/a.OpenFOAM"}) {
+    if (name != "case") std::ofstream(folder / name) << "";
+    expect_refused(
+        flowgrid_with((folder / name) + " " + (folder / "out.vtkhdf") + " --spacing 0.3"), name,
+        "asks for more memory than there is, or is damaged");
+  }
+}
+
+// Names of patches are not expressions.
+TEST_F(Trust, words_of_a_case_are_taken_as_they_are)
+{
+  fs::copy(FLOWGRID_DATA "/poiseuille", folder / "case", fs::copy_options::recursive);
+  const std::string boundary = folder / "case/constant/polyMesh/boundary";
+  std::ifstream in(boundary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}}, old = "walls";
+  ASSERT_NE(text.find(old), std::string::npos);
+  for (const std::string name : {"w[", "w+"}) {
+    std::string other = text;
+    other.replace(other.find(old), old.size(), name);
+    std::ofstream(boundary) << other;
+    const auto result = flowgrid_with((folder / "case") + " " + (folder / "out.vtkhdf") +
+                                      " --spacing 0.3 --planar 0.05");
+    EXPECT_EQ(result.status, 0) << name << result.text;
+  }
+}
+
 // As a full disk: no file may grow beyond 8 kbytes. What was there before stays as it was.
 TEST_F(Trust, a_full_disk_costs_nothing)
 {
