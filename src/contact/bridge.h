@@ -275,8 +275,9 @@ struct BridgeConstants : BridgeConstantsOf<double>, BridgeVolumeOf<double> {
     h = gap(h);
     return fitted ? fit_force * fit.force(fit_scale * h) : pull * filling(h, b);
   }
-  // work that the attraction does from a gap to rupture at rest
-  double work(double h) const
+  // Work that the attraction does from a gap to rupture at rest. Inlined, or kernels for several
+  // instruction sets would share one of their copies.
+  APF_INLINE double work(double h) const
   {
     const double to = std::max(rupture, h_min), from = std::min(gap(h), to);
     double sum = attraction(h_min) * (from - std::min(h, from));
