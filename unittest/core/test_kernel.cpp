@@ -297,16 +297,6 @@ TEST(Kernel, contact_beyond_its_neck_exerts_nothing_and_has_ended)
   }
 }
 
-TEST(Kernel, evaluation_without_time_leaves_the_springs_alone)
-{
-  Crowd crowd(20, all_submodels, 6);
-  crowd.evaluate(0.01);
-  const ContactList before = crowd.list;
-  for (double &component : crowd.v) component *= 3.0;    // other velocities, same places
-  crowd.evaluate(0.0);
-  for (int k = 0; k < 20; k++) expect_same_contact(crowd.list, k, before, k);
-}
-
 TEST(ContactList, removal_keeps_the_others)
 {
   Crowd crowd(11, all_submodels, 8);
