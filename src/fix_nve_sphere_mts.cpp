@@ -145,9 +145,10 @@ void FixNVESphereMTS::choose_steps()
   run.collision_steps += n_collision;
   all_collision_steps += n_collision;
   active_now = 0;
+  atoms_now = atom->nlocal;
   for (int i = 0; i < atom->nlocal; i++) active_now += !foresight.free(i);
   run.active += active_now;
-  run.atoms += atom->nlocal;
+  run.atoms += atoms_now;
   if (demand >= run.demand) {
     run.demand = demand;
     run.mode = apf::mode_names[all.mode];

@@ -2,7 +2,6 @@
 
 #include "fix_nve_sphere_mts.h"
 
-#include "atom.h"
 #include "comm.h"
 #include "fix_contacts.h"
 #include "restart_state.h"
@@ -49,9 +48,10 @@ double FixNVESphereMTS::compute_vector(int n)
 {
   if (n == 0) return n_collision;
   if (n == 1) {
-    bigint all;
-    MPI_Allreduce(&active_now, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-    return atom->natoms ? static_cast<double>(all) / atom->natoms : 0.0;
+    // atoms may have come and gone since
+    bigint mine[2] = {active_now, atoms_now}, all[2];
+    MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+    return all[1] ? static_cast<double>(all[0]) / all[1] : 0.0;
   }
   if (n == 2) {
     double mine = 0.0, all;

@@ -118,7 +118,8 @@ struct Candidates {
   // [bytes]
   double memory_usage() const
   {
-    return i.capacity() * (2.0 * sizeof(int) + sizeof(double) + sizeof(char));
+    return i.capacity() * (2.0 * sizeof(int) + sizeof(double) + sizeof(char)) +
+        near.capacity() * sizeof(int) + perhaps.capacity() * sizeof(Pair);
   }
 
  private:

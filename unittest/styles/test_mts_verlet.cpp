@@ -172,6 +172,8 @@ TEST(MtsVerlet, reports_what_it_does)
   EXPECT_LE(sim.value("f_nve[6]"), 0.1);
   EXPECT_GT(sim.value("f_nve[6]"), 0.05);
   EXPECT_EQ(sim.value("f_nve[4]"), 3.0 * sim.value("f_nve[1]"));
+  sim.run("group gone id 4\ndelete_atoms group gone compress no");
+  EXPECT_EQ(sim.value("f_nve[2]"), 0.5);    // of the atoms that there were in the step
 }
 
 }    // namespace
