@@ -107,10 +107,10 @@ def draw_sizes(runs, path):
     """Particles in aggregates of each size at the end."""
     figure, axis = plt.subplots(figsize=(6, 3.6), layout="constrained")
     for run in runs:
-        axis.step(run.size, run.in_size, where="mid", label=run.words)
+        axis.plot(run.size[run.in_size > 0], run.in_size[run.in_size > 0], ".", label=run.words)
     axis.axvline(60, color="k", linestyle="--", linewidth=0.8, label="report's largest")
     axis.set(xlabel="particles in the aggregate", ylabel="particles in aggregates of this size",
-             xlim=(1.5, 100), yscale="log")
+             xlim=(0, 101), ylim=(10, 1000), yscale="log")
     axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
