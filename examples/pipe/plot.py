@@ -99,7 +99,8 @@ def draw_history(runs, path, said):
         axis.set(xlabel="t  [L/U]", ylabel=label)
         if value:
             axis.axhline(value, color="k", linestyle="--", linewidth=0.8, label="report")
-    axes[2].legend(fontsize=8)
+    figure.legend(*axes[2].get_legend_handles_labels(), fontsize=8, frameon=False, ncol=len(runs) + 1, loc="lower center")
+    figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
     figure.savefig(path, dpi=150)
 
 
