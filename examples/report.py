@@ -127,7 +127,7 @@ def draw_pictures(pictures, columns, path, size=(3.1, 2.7)):
     for axis, (title, file) in zip(axes.flat, pictures):
         axis.imshow(plt.imread(file))
         axis.set_title(title, fontsize=9)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=110, bbox_inches="tight")
 
 
 # ---------------------------------------------------------------------- the report's numbers beside ours

@@ -54,7 +54,7 @@ def draw_history(runs, path):
                 axis.plot(run.t, run.history["mean_size"], linewidth=1,
                           label=f"length {length}" + kind(run) + (", clogs" if clogged == 1 else ""))
         axis.set(xlabel="t  [D/U]", ylabel="mean size of aggregates",
-                 title="walls adhere" if wall else "walls do not adhere")
+                 title=f"phi = 50, walls {'adhere' if wall else 'do not adhere'}")
         axis.axhline(2.4, color="k", linestyle="--", linewidth=0.8, label="report, walls do not adhere")
         axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
@@ -79,7 +79,7 @@ def draw_clogs(runs, out):
     clogged = sorted((run for run in runs if parts(run)[3] == 1 and run.pictures(".close")[1]), key=parts)
     if not clogged:
         return
-    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:.0f}", run.pictures(".close")[1][-1])
+    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:.0f} D/U", run.pictures(".close")[1][-1])
             for run in clogged]
     draw_pictures(ends, min(4, len(ends)), out / "figure21.png")
     run = max(clogged, key=lambda run: len(run.pictures(".close")[1]) / run.t[-1])
@@ -88,7 +88,7 @@ def draw_clogs(runs, out):
     closed = run.t[left >= left[-1] - 0.5][0] - TRANSIT + 1
     last = next(k for k, t in enumerate(times) if t >= closed or t == times[-1])
     first = max(0, last - 7)
-    draw_pictures([(f"t = {t:g}", path) for t, path in zip(times[first:last + 1], paths[first:last + 1])], 4,
+    draw_pictures([(f"t = {t:g} D/U", path) for t, path in zip(times[first:last + 1], paths[first:last + 1])], 4,
                   out / "figure22.png")
 
 

@@ -44,14 +44,16 @@ def values_of(run):
     """The quantities of report.csv, at the end of the run."""
     c, v = run.profile(run.times[-1])
     volume = run.r * (run.r[1] - run.r[0])
-    inside, count = run.last("in_aggregates")[0], run.last("aggregates")[0]
     if not run.adhesive:
-        early = run.history["in_aggregates"][(run.t > 1) & (run.t < 10)].mean()
-        return {"size of collision clusters": inside / count, "c at r = 0.2": c[abs(run.r - 0.2) < 0.05].mean(),
+        after = run.t > 1
+        inside, count = (run.history[key][after] for key in ("in_aggregates", "aggregates"))
+        tens = [inside[run.t[after] // 10 == k].mean() for k in range(max(1, int(run.t[-1] + 0.5) // 10))]
+        return {"size of collision clusters": inside.sum() / count.sum(), "c at r = 0.2": c[abs(run.r - 0.2) < 0.05].mean(),
                 "largest c for 0.05 < r < 0.9": c[(run.r > 0.05) & (run.r < 0.9)].max(),
                 "c at r = 0.95": c[(run.r > 0.94) & (run.r < 0.96)].mean(),
                 "c at the wall / mean c": c[-1] / (c @ volume / volume.sum()),
-                "particles in collisions late / early": inside / early}
+                "particles in collisions: largest / first mean of 10 L/U": max(tens) / tens[0]}
+    inside, count = run.last("in_aggregates")[0], run.last("aggregates")[0]
     still = run.r[v > 0.05]
     total = (c @ volume) * 2 * np.pi * 4 / VOLUME
     return {"mean size": inside / count, "particles in aggregates": inside / total,
@@ -97,7 +99,8 @@ def draw_history(runs, path, said):
         axis.set(xlabel="t  [L/U]", ylabel=label)
         if value:
             axis.axhline(value, color="k", linestyle="--", linewidth=0.8, label="report")
-    axes[2].legend(fontsize=8)
+    figure.legend(*axes[2].get_legend_handles_labels(), fontsize=8, frameon=False, ncol=len(runs) + 1, loc="lower center")
+    figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
     figure.savefig(path, dpi=150)
 
 
@@ -105,10 +108,10 @@ def draw_sizes(runs, path):
     """Particles in aggregates of each size at the end."""
     figure, axis = plt.subplots(figsize=(6, 3.6), layout="constrained")
     for run in runs:
-        axis.step(run.size, run.in_size, where="mid", label=run.words)
+        axis.plot(run.size[run.in_size > 0], run.in_size[run.in_size > 0], ".", label=run.words)
     axis.axvline(60, color="k", linestyle="--", linewidth=0.8, label="report's largest")
     axis.set(xlabel="particles in the aggregate", ylabel="particles in aggregates of this size",
-             xlim=(1.5, 100), yscale="log")
+             xlim=(0, 101), ylim=(10, 1000), yscale="log")
     axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
