@@ -140,6 +140,14 @@ inline void expect_flood_fill(Simulation &sim, double plane = INFINITY)
   EXPECT_EQ(totals(sim), totals_of(expected));
 }
 
+// n particles of type 1 in a row along x, each in contact with the next
+inline std::vector<Particle> chain_of(int n)
+{
+  std::vector<Particle> result;
+  for (int i = 0; i < n; i++) result.push_back({3.0 + 0.95 * i, 6.0, 6.0, 1});
+  return result;
+}
+
 inline std::vector<Particle> random_packing(int n, double size, int seed)
 {
   std::mt19937 random(seed);

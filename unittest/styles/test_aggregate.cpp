@@ -9,8 +9,7 @@ TEST(RanksAggregate, chain_and_loners)
     Simulation sim;
     Packing scene;
     scene.newton = newton;
-    std::vector<Particle> chain;
-    for (int i = 0; i < 7; i++) chain.push_back({3.0 + 0.95 * i, 6.0, 6.0, 1});
+    auto chain = chain_of(7);
     chain.push_back({1.0, 1.0, 1.0, 1});
     chain.push_back({11.0, 2.0, 11.0, 3});
     build(sim, scene, chain);

@@ -63,8 +63,8 @@ TEST(RanksAggregate, only_the_group_takes_part)
     Simulation sim;
     Packing scene;
     scene.newton = newton;
-    std::vector<Particle> chain;
-    for (int i = 0; i < 7; i++) chain.push_back({3.0 + 0.95 * i, 6.0, 6.0, i == 3 ? 3 : 1});
+    auto chain = chain_of(7);
+    chain[3].type = 3;
     build(sim, scene, chain);
     sim.run("group some type 1\ncompute part some aggregate/contact\n");
     sim.run(measure);
@@ -90,9 +90,7 @@ TEST(RanksAggregate, dynamic_group_changes_without_new_neighbours)
     Packing scene;
     scene.newton = newton;
     scene.processors = "* 1 1";
-    std::vector<Particle> chain;
-    for (int i = 0; i < 6; i++) chain.push_back({3.0 + 0.95 * i, 6.0, 6.0, 1});
-    build(sim, scene, chain);
+    build(sim, scene, chain_of(6));
     sim.run("neigh_modify every 1000 delay 1000\n"
             "variable stays atom \"id != step\"\n"
             "group some dynamic all every 1 var stays\n"
