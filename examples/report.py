@@ -117,15 +117,23 @@ def read_runs(folder, pattern, make):
     return runs
 
 
-def draw_pictures(pictures, columns, path, size=(3.1, 2.7)):
-    """Pictures of (title, file) in rows, each of this size in inches."""
+def trimmed(image):
+    """A picture without its white margins."""
+    inked = image[..., :3].min(axis=2) < 0.95
+    rows, columns = (np.flatnonzero(inked.any(axis=axis)) for axis in (1, 0))
+    return image[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1] if len(rows) else image
+
+
+def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False):
+    """Pictures of (title, file) in rows, each of this size in inches; `trim` takes white margins off."""
     rows = -(-len(pictures) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(size[0] * columns, size[1] * rows), squeeze=False,
                                 layout="constrained")
     for axis in axes.flat:
         axis.axis("off")
     for axis, (title, file) in zip(axes.flat, pictures):
-        axis.imshow(plt.imread(file))
+        image = plt.imread(file)
+        axis.imshow(trimmed(image) if trim else image)
         axis.set_title(title, fontsize=9)
     figure.savefig(path, dpi=110, bbox_inches="tight")
 
