@@ -30,7 +30,7 @@ def read_input():
     """Numbers of in.channel, in SI: dict of its literal variables, and the words after `amap`."""
     text = (HERE / "in.channel").read_text()
     found = re.findall(r"^variable +(\w+) +(?:equal|index) +(\d[\d.]*(?:e[+-]?\d+)?)\s", text, re.M)
-    return {name: float(value) for name, value in found}, re.search(r"amap (.*)", text)[1].split()
+    return {name: float(value) for name, value in found}, re.search(r"amap ([^\"\n]*)", text)[1].split()
 
 
 class Channel(Run):
