@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Draws the report's figures from what in.fiber wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes fiber.png (figures 32, 33, 34), figure30.png and figure31.png (particles in a layer along the fiber and across it), figure35.png
-(dendrites, phi = 1000) and compare.txt to DIR, from all fiber-*.captured there; figure29.png (streamlines) from fiber-w8.vtkhdf there or here.
+Writes fiber.png (figures 32, 33, 34), ends.png (all runs), figure30.png and figure31.png (particles in a layer, along the fiber and
+from its side), figure35.png (dendrites, phi = 1000) and compare.txt to DIR, from all fiber-*.captured there; figure29.png (streamlines)
+from fiber-w8.vtkhdf there or here.
 """
 import sys
 from pathlib import Path
@@ -79,16 +80,16 @@ def draw_streamlines(grid, path):
     figure.savefig(path, dpi=120)
 
 
-def draw_layers(runs, path):
-    """Particles in a layer across the fiber, W = 4 and 8, at the report's times or what is next to them (figure 31)."""
-    shots = []
+def draw_layers(runs, layer, path, size):
+    """Particles in a layer, of runs side by side, at the report's times or what is next to them (figures 30, 31)."""
+    columns = []
     for run in runs:
-        times, paths = run.pictures(".xz")
-        near = sorted({int(np.argmin(abs(np.array(times) - t))) for t in (300, 400, 500)}, reverse=True) if paths else ()
-        shots.append([(f"{words(run)}, t = {times[k]:g} L/U", paths[k]) for k in near])
-    rows = [row for row in zip(*shots)]
-    if rows:
-        draw_pictures(sum(rows, ()), len(runs), path, (5, 1.7))
+        times, paths = run.pictures(layer)
+        near = {int(np.argmin(abs(np.array(times) - t))) for t in (300, 400, 500) if times}
+        columns.append([(f"{words(run)}, t = {times[k]:g} L/U", paths[k]) for k in sorted(near, reverse=True)])
+    pictures = [picture for row in zip(*columns) for picture in row]
+    if pictures:
+        draw_pictures(pictures, len(runs), path, size, trim=True)
 
 
 def draw_dendrites(run, path):
@@ -101,11 +102,10 @@ def draw_dendrites(run, path):
         axes[0].text(t, 1.02, f"report:\n{stage}", ha="center", fontsize=8, transform=axes[0].get_xaxis_transform())
     axes[0].set(xlabel="t  [L/U]", ylabel="longest dendrite [um]", ylim=(0, None), xlim=(0, 800))
     axes[0].legend(loc="lower right", fontsize=8)
-    times, paths = run.pictures(".xy")
+    times, paths = run.pictures()
+    axes[1].imshow(trimmed(plt.imread(paths[-1])))
+    axes[1].set_title(f"t = {times[-1]:g} L/U, along the fiber, air from above", fontsize=9)
     axes[1].axis("off")
-    if paths:
-        axes[1].imshow(trimmed(plt.imread(paths[-1])))
-        axes[1].set_title(f"t = {times[-1]:g} L/U, air from above", fontsize=9)
     figure.savefig(path, dpi=130)
 
 
@@ -117,12 +117,11 @@ def main():
     air = find("fiber-w8.vtkhdf", folder, HERE)
     if air:
         draw_streamlines(Grid(air, ["velocity", "inside"]), out / "figure29.png")
-    ends = [(f"{words(run)}, t = {times[-1]:g} L/U", paths[-1]) for run in runs
-            for times, paths in [run.pictures(".xy")] if paths]
-    if ends:
-        draw_pictures(ends, 3, out / "figure30.png")
+    draw_pictures([(f"{words(run)}, t = {run.pictures()[0][-1]:g} L/U", run.pictures()[1][-1]) for run in runs], 3,
+                  out / "ends.png")
     middle = [run for run in runs if parts(run)[1] == 1000]
-    draw_layers(middle, out / "figure31.png")
+    draw_layers(middle, ".xy", out / "figure30.png", (3.4, 3.6))
+    draw_layers(middle, ".xz", out / "figure31.png", (5, 1.5))
     for run in middle:
         if parts(run)[0] == 8:
             draw_dendrites(run, out / "figure35.png")
