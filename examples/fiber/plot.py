@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from grids import Grid, find
+from grids import read_grid
 from report import Run, arguments, conclude, draw_pictures, read_runs, trimmed, values_by_run
 
 RADIUS = 1e-5    # of the fiber [m], as in in.fiber
@@ -114,9 +114,9 @@ def main():
     folder, out, kept = arguments(__doc__, HERE)
     runs = sorted(read_runs(folder, "fiber-*.captured", lambda path: Run(path, "fiber-")), key=parts)
     draw(runs, out / "fiber.png")
-    air = find("fiber-w8.vtkhdf", folder, HERE)
+    air = read_grid("fiber-w8.vtkhdf", ["velocity", "inside"], folder, HERE)
     if air:
-        draw_streamlines(Grid(air, ["velocity", "inside"]), out / "figure29.png")
+        draw_streamlines(air, out / "figure29.png")
     draw_pictures([(f"{words(run)}, t = {run.pictures()[0][-1]:g} L/U", run.pictures()[1][-1]) for run in runs], 3,
                   out / "ends.png")
     middle = [run for run in runs if parts(run)[1] == 1000]

@@ -13,7 +13,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from grids import Grid, find
+from grids import read_grid
 from report import Ours, Run, arguments, conclude, draw_pictures, read_runs, values_by_run
 
 CHANNEL = 5e-4    # width of the channel [m], as in in.nozzle
@@ -49,8 +49,8 @@ def values_of(run):
 
 def read_flows(folders):
     """Water and distance to the walls by length, of those files that there are."""
-    paths = {length: find(f"nozzle-{length}.vtkhdf", *folders) for length in LENGTHS}
-    return {length: Grid(path, ["velocity", "inside", "distance"]) for length, path in paths.items() if path}
+    grids = {length: read_grid(f"nozzle-{length}.vtkhdf", ["velocity", "inside", "distance"], *folders) for length in LENGTHS}
+    return {length: grid for length, grid in grids.items() if grid}
 
 
 def draw_entrance(flows, values_of_grid, levels, label, path):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws what has settled where, from what in.radiator wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes deposit.png, figure40.png (a slice before the bar) and compare.txt to DIR, from all radiator-*.captured there;
+Writes deposit.png, figure39.png (bar and particles), figure40.png (a slice before the bar) and compare.txt to DIR, from all radiator-*.captured there;
 figure37.png (the grid of the air's computation) from `case`, figure38.png (the air) from radiator.vtkhdf there or here.
 """
 import sys
@@ -13,7 +13,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from grids import Grid, find
+from grids import read_grid
 from mesh import Mesh, quads
 from report import Run, arguments, conclude, draw_pictures, read_runs, values_by_run
 
@@ -99,10 +99,13 @@ def main():
     folder, out, kept = arguments(__doc__, HERE)
     runs = read_runs(folder, "radiator-*.captured", lambda path: Run(path, "radiator-"))
     draw_mesh(Mesh(), out / "figure37.png")
-    air = find("radiator.vtkhdf", folder, HERE)
+    air = read_grid("radiator.vtkhdf", ["velocity", "inside"], folder, HERE)
     if air:
-        draw_air(Grid(air, ["velocity", "inside"]), out / "figure38.png")
+        draw_air(air, out / "figure38.png")
     draw(runs, out / "deposit.png")
+    early = [(f"{words(run)}, t = {t:g} L/U", path) for run in runs for t, path in zip(*run.pictures()) if t in (4, 16)]
+    if early:
+        draw_pictures(early, 2, out / "figure39.png", (4.4, 3.2), trim=True)
     ends = [(f"{words(run)}, t = {times[-1]:g} L/U", paths[-1]) for run in runs
             for times, paths in [run.pictures(".slice")] if paths]
     if ends:
