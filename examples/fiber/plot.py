@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Draws the report's figures from what in.fiber wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes fiber.png (figures 32, 33, 34), ends.png (all runs), figure30.png and figure31.png (particles in a layer, along the fiber and
-from its side), figure35.png (dendrites, phi = 1000) and compare.txt to DIR, from all fiber-*.captured there; figure29.png (streamlines)
-from fiber-w8.vtkhdf there or here.
+Writes fiber.png (figures 32, 33, 34), ends.png (all runs), figure30.png and figure31.png (particles in a layer,
+along the fiber and from its side), figure35.png (dendrites, phi = 1000) and compare.txt to DIR, from all
+fiber-*.captured there; figure29.png (streamlines) from fiber-w8.vtkhdf there or here.
 """
 import sys
 from pathlib import Path

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Draws the report's figures from what in.nozzle wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes figure13.png (water), figure14.png (distance to the walls), figure15.png and figure19.png (particles, by length and by phi),
-figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi), figure21.png and figure22.png (clogs)
-and compare.txt to DIR, from all nozzle-*.aggregates there, and from the flows nozzle-LENGTH.vtkhdf there or here.
+Writes figure13.png (water), figure14.png (distance to the walls), figure15.png and figure19.png (particles, by
+length and by phi), figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi),
+figure21.png and figure22.png (clogs) and compare.txt to DIR, from all nozzle-*.aggregates there, and from the flows
+nozzle-LENGTH.vtkhdf there or here.
 """
 import sys
 from pathlib import Path

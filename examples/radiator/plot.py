@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Draws what has settled where, from what in.radiator wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes deposit.png, figure39.png (bar and particles), figure40.png (a slice before the bar) and compare.txt to DIR, from all radiator-*.captured there;
-figure37.png (the grid of the air's computation) from `case`, figure38.png (the air) from radiator.vtkhdf there or here.
+Writes deposit.png, figure39.png (bar and particles), figure40.png (a slice before the bar) and compare.txt to DIR,
+from all radiator-*.captured there; figure37.png (the grid of the air's computation) from `case`, figure38.png (the
+air) from radiator.vtkhdf there or here.
 """
 import sys
 from pathlib import Path
