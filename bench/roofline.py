@@ -172,16 +172,18 @@ def measured(text):
 
 COUNTS = ("instructions", ("arithmetic", 512), ("arithmetic", 256), ("arithmetic", 128), "shuffles",
           "loads", "stores", "divisions", "roots", "estimates")
+ORDER = ["2D", "3D", *COMPOSITIONS, "scalar", *SETS, "polydisperse", "bridges", "maugis", "willett",
+         "tangential"]
 WORDS = "instr 512 256 128 shuf load store div root est issue load store ports div".split()
-HEAD = [f"{'':31s}{'per contact':60s}{'cycles at least':29s}{'bound':>7s}{'time':>8s}",
-        f"{'':30s}" + "".join(f"{word:>6s}" for word in WORDS) +
+HEAD = [f"{'':34s}{'per contact':60s}{'cycles at least':29s}{'bound':>7s}{'time':>8s}",
+        f"{'':33s}" + "".join(f"{word:>6s}" for word in WORDS) +
         f"{'[ns]':>7s}{'[ns]':>8s}{'cv %':>6s}{'ratio':>7s}"]
 
 
 def line(name, functions, times, clock):
     """One line of the table: counts and bounds where there are any, times where measured."""
     dims, composition, *between, isa = name.split("/")
-    row, bound = f"{name:30s}" + " " * 97, None
+    row, bound = f"{name:33s}" + " " * 97, None
     if composition in COMPOSITIONS and isa in SETS and not between:
         try:
             loop, width = group_loop(kernel(functions, dims, composition, isa))
@@ -190,7 +192,7 @@ def line(name, functions, times, clock):
         n = count(loop)
         cycles = bounds(n, isa).values()
         bound = max(cycles) / width / clock
-        row = f"{name:30s}" + "".join(
+        row = f"{name:33s}" + "".join(
             f"{number / width:6.1f}" for number in [n[key] for key in COUNTS] + list(cycles))
         row += f"{bound:7.1f}"
     if name in times:
@@ -202,9 +204,10 @@ def line(name, functions, times, clock):
 def output(*command):
     """What a program prints."""
     try:
-        return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+        return subprocess.run([*map(str, command)], check=True, text=True,
+                              stdout=subprocess.PIPE).stdout
     except (OSError, subprocess.CalledProcessError) as error:
-        stop(f"{' '.join(map(str, command))}: {error}")
+        stop(error)
 
 
 def main():
@@ -216,6 +219,8 @@ def main():
     parser.add_argument("--clock", type=float, metavar="GHZ", help="default: that of /proc/cpuinfo")
     parser.add_argument("--results", type=Path, default=HERE / "results", metavar="DIR")
     args = parser.parse_args()
+    if not args.program.is_file():
+        stop(f"{args.program}: not there; a build with -D APF_BENCH=on has bench_kernel")
     known = re.findall(r"^cpu MHz\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
     clock = args.clock if args.clock is not None else max(map(float, known), default=0.0) / 1000.0
     if not clock > 0.0:
@@ -228,10 +233,12 @@ def main():
                                 "--benchmark_enable_random_interleaving=true"))
     elif args.times:
         times = measured(args.times.read_text())
-    names = times or [f"{dims}/{composition}/{isa}" for dims in ("2D", "3D")
-                      for composition in COMPOSITIONS for isa in SETS
-                      if (dims, composition) != ("2D", "twisting")]
-    told = "as told" if args.clock else "of /proc/cpuinfo, in a virtual machine often not the core's"
+    names = times or {f"{dims}/{composition}/{isa}" for dims in ("2D", "3D")
+                      for composition in COMPOSITIONS for isa in SETS} - {
+                          f"2D/twisting/{isa}" for isa in SETS}
+    names = sorted(names, key=lambda name: [ORDER.index(word) for word in name.split("/")])
+    told = "as told" if args.clock else ("of /proc/cpuinfo, which in a virtual machine need not be "
+                                         "the core's")
     table = prose(f"""{processor()}, one core; clock {clock:.2f} GHz, {told}. Counts of the loop
         over complete groups of contacts of one kind, by bench/roofline.py; 512, 256, 128:
         arithmetic by bits of the registers. Bound: the largest of the cycles; ratio: time to bound;
