@@ -125,7 +125,7 @@ std::array<double, ContactHistory::size> numbers(const ContactHistory &h)
 void expect_same_contact(const ContactList &a, int k, const ContactList &b, int l)
 {
   const auto u = numbers(a.history_of(k)), w = numbers(b.history_of(l));
-  for (int c = 0; c < ContactHistory::size; c++) ASSERT_NEAR(u[c], w[c], 1e-13) << "history " << c;
+  for (int c = 0; c < ContactHistory::size; c++) ASSERT_NEAR(u[c], w[c], 2e-13) << "history " << c;
   ASSERT_NEAR(a.overlap(k), b.overlap(l), 1e-14);
   ASSERT_EQ(a.ended(k), b.ended(l));
 }
