@@ -23,6 +23,7 @@ std::string plain(const std::string &law)
 struct Impacts {
   std::vector<double> speeds;
   int phases = 4;
+  double first_phase = 0.0;    // in units of their distance
   double step = 0.1 * scale.T, T = scale.T;
   std::string law = jkr;
   double origin = 0.0;
@@ -33,7 +34,8 @@ struct Impacts {
     const int all = phases * static_cast<int>(speeds.size());
     for (int n = 0; n < all; n++)
       for (const double sign : {-1.0, 1.0}) {
-        const double V = speeds[n / phases], gap = V * (4.0 * T + step * (n % phases) / phases);
+        const double V = speeds[n / phases],
+                     gap = V * (4.0 * T + step * (n % phases + first_phase) / phases);
         x.insert(x.end(),
                  {origin + 8.0 + snap(sign * 0.5 * (1.0 + gap)), origin + 2.0 + 4.0 * (n % 16),
                   origin + 2.0 + 4.0 * (n / 16)});
@@ -137,11 +139,14 @@ TEST(Integrators, stiff_spheres)
       expect_criterion(integrator.of("C6 *: e of softened less e of stiff spheres"),
                        e_soft[n] - e[n], -0.01, 0.01);
     hard.speeds = {3.0 * fast.V_s};
+    // no touch at the very end of a step: rounding would choose the step, and e change by 1e-5
+    hard.phases = 16;
+    hard.first_phase = 0.5;
     const auto near = hard.restitutions(integrator);
     hard.origin = 10000.0;
     const auto far = hard.restitutions(integrator);
     expect_criterion(integrator.of("C6 *: change of e 1e4 d from the origin"),
-                     difference(far, near) * largest(near), 0.0, 1e-4);
+                     difference(far, near) * largest(near), 0.0, 1e-6);
   }
 }
 
