@@ -18,6 +18,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image    # matplotlib needs it, too
 
 sys.path.append(str(Path(__file__).resolve().parent.parent / "tools"))
 import apf_read
@@ -117,17 +118,28 @@ def read_runs(folder, pattern, make):
     return runs
 
 
-def draw_pictures(pictures, columns, path, size=(3.1, 2.7)):
-    """Pictures of (title, file) in rows, each of this size in inches."""
+def trimmed(image):
+    """A picture without its white margins."""
+    inked = image[..., :3].min(axis=2) < 0.95
+    rows, columns = (np.flatnonzero(inked.any(axis=axis)) for axis in (1, 0))
+    return image[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1] if len(rows) else image
+
+
+def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False):
+    """Pictures of (title, file) in rows, each of this size in inches; `trim` takes white margins off."""
     rows = -(-len(pictures) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(size[0] * columns, size[1] * rows), squeeze=False,
                                 layout="constrained")
     for axis in axes.flat:
         axis.axis("off")
     for axis, (title, file) in zip(axes.flat, pictures):
-        axis.imshow(plt.imread(file))
+        image = plt.imread(file)
+        axis.imshow(trimmed(image) if trim else image)
         axis.set_title(title, fontsize=9)
     figure.savefig(path, dpi=110, bbox_inches="tight")
+    with Image.open(path) as image:    # a palette that keeps rare colours: a third of the size
+        small = image.convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE)
+    small.save(path, optimize=True)
 
 
 # ---------------------------------------------------------------------- the report's numbers beside ours

@@ -36,11 +36,11 @@ class ContactStore {
     owners[i] = 0;
   }
   // all anew, for that many atoms, with room for records of so many contacts and bridges
-  void start(int atoms, size_t of_contacts, size_t of_bridges)
+  void start(int atoms, size_t of_contacts, size_t of_bridges, bool planar)
   {
     grow(atoms);
-    contacts.start(of_contacts);
-    bridges.start(of_bridges);
+    contacts.start(of_contacts, planar);
+    bridges.start(of_bridges, planar);
     std::fill(owners.begin(), owners.end(), 0);
   }
   void release()

@@ -237,7 +237,8 @@ void FixContactHistory::add_counts(double *to)
 int FixContactHistory::pack_forward_comm(int n, int *list, double *buf, int pbc_flag, int *pbc)
 {
   if (carried) {
-    for (int k = 0; k < n; k++) buf = std::copy_n(&(*carried)[columns * list[k]], columns, buf);
+    for (int k = 0; k < n; k++)
+      buf = std::copy_n(carried->data() + columns * list[k], columns, buf);
     return columns * n;
   }
   double dv[3] = {0.0, 0.0, 0.0};
@@ -258,7 +259,7 @@ int FixContactHistory::pack_forward_comm(int n, int *list, double *buf, int pbc_
 void FixContactHistory::unpack_forward_comm(int n, int first, double *buf)
 {
   if (carried) {
-    std::copy_n(buf, columns * n, &(*carried)[columns * first]);
+    std::copy_n(buf, columns * n, carried->data() + columns * first);
     return;
   }
   for (int i = first; i < first + n; i++, buf += 6) velocities.bodies.set_motion(i, buf, buf + 3);
@@ -287,7 +288,7 @@ void FixContactHistory::before_storing()
 }
 
 /* ----------------------------------------------------------------------
-   each contact goes to both its atoms, to those of other ranks as well
+   each contact goes to both its atoms, also to those of other ranks
 ------------------------------------------------------------------------- */
 
 void FixContactHistory::store_contacts()
@@ -295,14 +296,21 @@ void FixContactHistory::store_contacts()
   const auto &contacts = pair->closed_contacts();
   const tagint *tag = atom->tag;
   const int nlocal = atom->nlocal;
-  const bool planar = pair->planar();
   const auto *bridges = pair->liquid_bridges();
-  store.start(nlocal + atom->nghost, 2 * static_cast<size_t>(contacts.size()),
-              bridges ? 2 * static_cast<size_t>(bridges->size()) : 0);
+  // about as many come from ghosts on other ranks as go there
+  auto room = [&](const auto &list) {
+    const auto shared = std::count_if(list.j.begin(), list.j.end(), [&](int j) {
+      return j >= nlocal;
+    });
+    return list.size() + shared + shared / 4;
+  };
+  store.start(nlocal + atom->nghost, room(contacts), bridges ? room(*bridges) : 0, pair->planar());
   for (int i = 0; i < nlocal; i++) store.set_owner(i, tag[i]);
   auto keep = [&](auto &records, int i, int j, const auto &memory) {
-    records.add(i, tag[j], memory);
-    if (j < nlocal || force->newton_pair) records.add(j, tag[i], memory.swapped(planar));
+    if (j < nlocal || force->newton_pair)
+      records.add(i, j, tag[i], tag[j], memory);
+    else
+      records.add(i, tag[j], memory);
   };
   for (int k = 0; k < contacts.size(); k++)
     keep(store.contacts, contacts.i[k], contacts.j[k], contacts.history_of(k));
@@ -368,7 +376,7 @@ template <class Records> void FixContactHistory::send_to_owners(Records &records
 int FixContactHistory::pack_reverse_comm(int n, int first, double *buf)
 {
   if (carried) {
-    std::copy_n(&(*carried)[columns * first], columns * n, buf);
+    std::copy_n(carried->data() + columns * first, columns * n, buf);
     return columns * n;
   }
   auto pack = [&](const auto &records) {

@@ -45,12 +45,12 @@ class FixContactHistory : public FixContacts {
   void serve(class PairGranularAdhesive *style) { pair = style; }
   class PairGranularAdhesive &served() const { return *pair; }
 
-  // history of atom i's contact with the atom of that ID at the last rebuild; nullptr if none
-  const apf::ContactHistory *find(int i, tagint partner) const
+  // history of atom i's contact with the atom of that ID at the last rebuild, if there was one
+  std::optional<apf::ContactHistory> find(int i, tagint partner) const
   {
     return store.contacts.find(i, partner);
   }
-  const apf::BridgeMemory *find_bridge(int i, tagint partner) const
+  std::optional<apf::BridgeMemory> find_bridge(int i, tagint partner) const
   {
     return store.bridges.find(i, partner);
   }

@@ -254,7 +254,7 @@ void FixWallLevelset::before_storing()
 
 void FixWallLevelset::store_contacts()
 {
-  store.start(atom->nlocal, contacts.size(), wet ? bridges.size() : 0);
+  store.start(atom->nlocal, contacts.size(), wet ? bridges.size() : 0, rows.planar());
   for (int k = 0; k < contacts.size(); k++)
     store.contacts.add(contacts.source[k], surface_of[k], contacts.history_of(k));
   if (wet) bridges.store_into(store);
@@ -277,5 +277,5 @@ void FixWallLevelset::find_again()
   if (wet) bridges.find_again();
   for (int i = 0; i < atom->nlocal; i++)
     for (int s = 0; s < static_cast<int>(surfaces.size()); s++)
-      if (const auto *history = store.contacts.find(i, s)) close(i, s, *history);
+      if (const auto history = store.contacts.find(i, s)) close(i, s, *history);
 }

@@ -19,14 +19,15 @@ using namespace LAMMPS_NS;
 
 double FixWallLevelset::compute_scalar()
 {
-  double energy = 0.0;
+  struct Sum : apf::ContactReader {
+    double energy = 0.0;
+    void read(int, const apf::ContactParts &p) override { energy += p.energy(); }
+  } sum;
   if (contacts.size() > 0) {
-    std::vector<apf::ContactParts> parts(contacts.size());
     gather();    // remove_ended() has renumbered the rows
-    kernel(contacts, rows, lender ? lender->last_times() : last_times(), parts.data());
-    for (const auto &p : parts)
-      energy += p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
+    kernel(contacts, rows, lender ? lender->last_times() : last_times(), &sum);
   }
+  double energy = sum.energy;
   if (wet) energy += bridges.loads().energy;
   double all;
   MPI_Allreduce(&energy, &all, 1, MPI_DOUBLE, MPI_SUM, world);

@@ -91,8 +91,9 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   }
 
   const bool tallied = evflag != 0;
-  if (tallied) parts.resize(contacts.size());
-  const int ended = kernel(contacts, bodies, times, tallied ? parts.data() : nullptr);
+  if (tallied) std::fill(pvector, pvector + n_energies, 0.0);
+  Tally tally(*this, eflag);
+  const int ended = kernel(contacts, bodies, times, tallied ? &tally : nullptr);
   if (wet && tallied) bridges.parts.resize(bridges.all().size());
   const int ruptured =
       wet ? bridges.add_forces(bodies, times, tallied ? bridges.parts.data() : nullptr) : 0;
@@ -101,8 +102,8 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   if (ended) correct_ends(times.advance);
   const int n = force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
   if (n) bodies.add_loads_to_all(n, rows_of(atom->f), rows_of(atom->torque));
-  if (tallied) tally(eflag);
-  parts = std::vector<apf::ContactParts>();    // memory is for steps that look at them
+  if (tallied && wet) tally_bridges(eflag);
+  parts.of = std::vector<apf::ContactParts>();    // memory is for steps that look at them
   if (ended) remove_ended(false);
   if (ruptured) bridges.remove_ruptured(false);
   parts_step = -1;
@@ -234,7 +235,7 @@ void PairGranularAdhesive::build_candidates()
     if (force->special_lj[sbmask(jmasked)] == 0.0) return;
     const int j = jmasked & NEIGHMASK;
     const int k = candidates.add(i, j, radius[i] + radius[j]);
-    const auto *history = store->find(i, tag[j]);
+    const auto history = store->find(i, tag[j]);
     if (history) close(k, *history);
     if (wet) bridges.add_candidate(i, j);
   };

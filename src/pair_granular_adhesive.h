@@ -102,7 +102,7 @@ class PairGranularAdhesive : public Pair {
   static constexpr int bridge_energy = 4, n_energies = 5;
 
   // parts of all contacts at one timestep, for single()
-  std::vector<apf::ContactParts> parts;
+  apf::ContactPartsKept parts;
   PairIndex index_of_pair;
   bigint parts_step = -1;
 
@@ -118,7 +118,14 @@ class PairGranularAdhesive : public Pair {
   void correct_ends(double step);
   double init_bridge(int i, int j, double ri, double rj);
   void remove_ended(bool in_sub_step);
-  void tally(int eflag);
+  // adds up energies, virial and stress of contacts while their forces are computed
+  struct Tally : apf::ContactReader {
+    Tally(PairGranularAdhesive &style, int flag) : pair(style), eflag(flag) {}
+    void read(int k, const apf::ContactParts &) override;
+    PairGranularAdhesive &pair;
+    int eflag;
+  };
+  void tally_bridges(int eflag);
   void tally_pair(int i, int j, int eflag, const double (&f)[3], int first,
                   std::initializer_list<double> energies);
   void evaluate_parts();

@@ -17,15 +17,14 @@ using namespace LAMMPS_NS;
    energy, virial and stress of all contacts and bridges from their parts
 ------------------------------------------------------------------------- */
 
-void PairGranularAdhesive::tally(int eflag)
+void PairGranularAdhesive::Tally::read(int k, const apf::ContactParts &p)
 {
-  for (int n = 0; n < n_energies; n++) pvector[n] = 0.0;
-  for (int k = 0; k < contacts.size(); k++) {
-    const auto &p = parts[k];
-    tally_pair(contacts.i[k], contacts.j[k], eflag, p.force, 0,
-               {p.elastic_energy, p.sliding_energy, p.rolling_energy, p.twisting_energy});
-  }
-  if (!wet) return;
+  pair.tally_pair(pair.contacts.i[k], pair.contacts.j[k], eflag, p.force, 0,
+                  {p.elastic_energy, p.sliding_energy, p.rolling_energy, p.twisting_energy});
+}
+
+void PairGranularAdhesive::tally_bridges(int eflag)
+{
   const auto &all = bridges.all();
   for (int k = 0; k < all.size(); k++) {
     const auto &p = bridges.parts[k];
@@ -57,9 +56,9 @@ void PairGranularAdhesive::evaluate_parts()
 {
   if (parts_step == update->ntimestep) return;
   parts_step = update->ntimestep;
-  parts.resize(contacts.size());
+  parts.of.resize(contacts.size());
   auto bodies = store->bodies();    // a copy: loads stay as they are
-  kernel(contacts, bodies, store->last_times(), parts.data());
+  kernel(contacts, bodies, store->last_times(), &parts);
   index_of_pair.number(contacts);
   if (wet) bridges.evaluate(store->last_times());
 }
@@ -78,7 +77,7 @@ double PairGranularAdhesive::single_contact(int i, int j, double rsq, double &ff
   const auto [index, sign] = index_of_pair.find(i, j);    // tangential parts: on the first atom
   if (index < 0) return 0.0;
 
-  const auto &p = parts[index];
+  const auto &p = parts.of[index];
   fforce += (p.elastic + p.damping) / sqrt(rsq);
   double *out = svector;
   *out++ = p.overlap;
@@ -88,7 +87,7 @@ double PairGranularAdhesive::single_contact(int i, int j, double rsq, double &ff
   for (double component : p.sliding) *out++ = sign * component;
   for (double component : p.rolling) *out++ = sign * component;
   *out++ = p.twisting;
-  return p.elastic_energy + p.sliding_energy + p.rolling_energy + p.twisting_energy;
+  return p.energy();
 }
 
 double PairGranularAdhesive::single_bridge(int i, int j, double rsq, double &fforce)
@@ -127,5 +126,5 @@ double PairGranularAdhesive::memory_usage()
 {
   return Pair::memory_usage() + bridges.memory_usage() + contacts.memory_usage() +
       tiles.memory_usage() + candidates.memory_usage() +
-      parts.capacity() * sizeof(apf::ContactParts);
+      parts.of.capacity() * sizeof(apf::ContactParts);
 }

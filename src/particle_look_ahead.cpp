@@ -234,7 +234,7 @@ void ParticleLookAhead::unpack_forward(int n, int first, const double *buf)
 int ParticleLookAhead::pack_reverse(int n, int first, double *buf)
 {
   if (message == Message::ACTIVITY) {
-    std::copy_n(&ahead.activity[first], n, buf);
+    std::copy_n(ahead.activity.data() + first, n, buf);
     return n;
   }
   auto &bodies = history->bodies();

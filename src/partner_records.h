@@ -1,7 +1,8 @@
 // What atoms remember of their partners, by ID, while rows mean nothing. Records of all atoms stand
 // in one array, chained from the last one of each atom to its first, so that no atom has memory of
-// its own. Chains are only ever added to at their heads: an atom that takes another's place may
-// share its chain.
+// its own. Two atoms of a rank share the record of what joins them: each has its own chain through
+// it, and its own view of it. Chains are only ever added to at their heads: an atom that takes
+// another's place may share its chain.
 
 #ifndef APF_PARTNER_RECORDS_H
 #define APF_PARTNER_RECORDS_H
@@ -9,12 +10,14 @@
 #include "lmptype.h"
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-// Memory is made of doubles alone, Memory::size of them.
+// Memory is made of doubles alone, Memory::size of them. memory.swapped(planar) is what the partner
+// sees of it.
 template <class Memory> class PartnerRecords {
  public:
   static constexpr int record_size = 1 + Memory::size;    // doubles
@@ -26,9 +29,10 @@ template <class Memory> class PartnerRecords {
   }
   void clear(int i) { last[i] = none; }
 
-  // all anew, with room for records
-  void start(size_t room)
+  // all anew, with room for so many records
+  void start(size_t room, bool planar)
   {
+    in_plane = planar;
     forget_all();
     records.clear();
     records.reserve(room);
@@ -43,22 +47,29 @@ template <class Memory> class PartnerRecords {
 
   void add(int i, tagint partner, const Memory &memory)
   {
-    records.push_back({memory, partner, last[i]});
-    last[i] = static_cast<int>(records.size()) - 1;
+    records.push_back({memory, {partner, 0}, {last[i], none}});
+    last[i] = 2 * static_cast<int>(records.size() - 1);
+  }
+  // as i sees it
+  void add(int i, int j, tagint id_i, tagint id_j, const Memory &memory)
+  {
+    records.push_back({memory, {id_j, id_i}, {last[i], last[j]}});
+    last[i] = 2 * static_cast<int>(records.size() - 1);
+    last[j] = last[i] + 1;
   }
 
-  // nullptr if atom i had nothing with partner
-  const Memory *find(int i, tagint partner) const
+  // as atom i sees it; nothing if it had none with partner
+  std::optional<Memory> find(int i, tagint partner) const
   {
-    for (int n = last[i]; n != none; n = records[n].before)
-      if (records[n].partner == partner) return &records[n].memory;
-    return nullptr;
+    for (int n = last[i]; n != none; n = before(n))
+      if (partner_of(n) == partner) return seen(n);
+    return {};
   }
 
   int count(int i) const
   {
     int sum = 0;
-    for (int n = last[i]; n != none; n = records[n].before) sum++;
+    for (int n = last[i]; n != none; n = before(n)) sum++;
     return sum;
   }
 
@@ -68,13 +79,14 @@ template <class Memory> class PartnerRecords {
   void renumber(int i, const std::unordered_map<tagint, tagint> &new_id)
   {
     for (int *at = &last[i]; *at != none;) {
-      Record &record = records[*at];
-      const auto found = new_id.find(record.partner);
+      Record &record = records[*at / 2];
+      const int side = *at % 2;
+      const auto found = new_id.find(record.partner[side]);
       if (found == new_id.end()) {
-        *at = record.before;
+        *at = record.before[side];
       } else {
-        record.partner = found->second;
-        at = &record.before;
+        record.partner[side] = found->second;
+        at = &record.before[side];
       }
     }
   }
@@ -83,9 +95,10 @@ template <class Memory> class PartnerRecords {
   void pack_record(int i, int k, double *buf) const
   {
     int n = last[i];
-    for (int later = count(i) - 1 - k; later > 0; later--) n = records[n].before;
-    const auto *value = reinterpret_cast<const double *>(&records[n].memory);
-    buf[0] = ubuf(records[n].partner).d;
+    for (int later = count(i) - 1 - k; later > 0; later--) n = before(n);
+    const Memory memory = seen(n);
+    const auto *value = reinterpret_cast<const double *>(&memory);
+    buf[0] = ubuf(partner_of(n)).d;
     std::copy(value, value + Memory::size, buf + 1);
   }
   void unpack_record(int i, const double *buf)
@@ -116,12 +129,22 @@ template <class Memory> class PartnerRecords {
  private:
   static constexpr int none = -1;
   struct Record {
-    Memory memory;
-    tagint partner;
-    int before;    // the next of the same atom
+    Memory memory;        // as the first of the two atoms sees it
+    tagint partner[2];    // of each
+    int before[2];        // the next of the same atom
   };
   std::vector<Record> records;
-  std::vector<int> last;    // of each atom: where its chain begins
+  std::vector<int>
+      last;    // of each atom where its chain begins: twice the record + which of the two
+  bool in_plane = false;
+
+  int before(int link) const { return records[link / 2].before[link % 2]; }
+  tagint partner_of(int link) const { return records[link / 2].partner[link % 2]; }
+  Memory seen(int link) const
+  {
+    const Memory &memory = records[link / 2].memory;
+    return link % 2 ? memory.swapped(in_plane) : memory;
+  }
 
   void forget_all() { std::fill(last.begin(), last.end(), none); }
 };

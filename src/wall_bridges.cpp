@@ -85,7 +85,7 @@ void WallBridges::find_again()
   joined.assign(atom->nmax, 0);
   for (int i = 0; i < atom->nlocal; i++)
     for (int s = 0; s < static_cast<int>(wall->surfaces.size()); s++)
-      if (const auto *memory = wall->store.bridges.find(i, s)) add(i, s, *memory, false);
+      if (const auto memory = wall->store.bridges.find(i, s)) add(i, s, *memory, false);
 }
 
 void WallBridges::store_into(ContactStore &store) const

@@ -3,7 +3,7 @@
 
     plot.py [DIR] [--keep]    DIR holds channel-phi*.aggregates, .profiles, .overlaps, .*.png (default .)
 
-Writes figure09.png, figure10.png, figure12.png, figure13.png, overlaps.png and compare.txt to DIR.
+Writes figure09.png, figure10.png, figure11.png (close-ups), figure12.png, figure13.png, overlaps.png and compare.txt to DIR.
 Any number of phi will do. The report's numbers and their reading errors are in report.csv.
 """
 import re
@@ -17,7 +17,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Ours, Run, arguments, conclude, read_report, read_runs, stop
+from report import Ours, Run, arguments, conclude, draw_pictures, read_report, read_runs, stop
 
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#000000"]
 DASHES = ["-", "--", "-.", (0, (1, 1.2))]
@@ -30,7 +30,7 @@ def read_input():
     """Numbers of in.channel, in SI: dict of its literal variables, and the words after `amap`."""
     text = (HERE / "in.channel").read_text()
     found = re.findall(r"^variable +(\w+) +(?:equal|index) +(\d[\d.]*(?:e[+-]?\d+)?)\s", text, re.M)
-    return {name: float(value) for name, value in found}, re.search(r"amap (.*)", text)[1].split()
+    return {name: float(value) for name, value in found}, re.search(r"amap ([^\"\n]*)", text)[1].split()
 
 
 class Channel(Run):
@@ -158,7 +158,7 @@ def size_colours(words):
     return plt.cm.ScalarMappable(Normalize(low, high), colours)
 
 
-def draw_pictures(runs, amap, path):
+def draw_ends(runs, amap, path):
     """Figure 9: particles at the last time of each phi, coloured by aggregate size."""
     figure, axes = plt.subplots(len(runs), 1, figsize=(10, 2.25 * len(runs) + 0.9), squeeze=False,
                                 layout="constrained", sharex=True)
@@ -175,6 +175,13 @@ def draw_pictures(runs, amap, path):
                           pad=0.02, extend="max", ticks=[1, 4, 8, 12, 16, 20])
     bar.set_label("particles in the aggregate")
     save(figure, path, 90)
+
+
+def draw_close_ups(runs, path):
+    """Figure 11: the lower wall in a series of times, a column for each run."""
+    series = [[(rf"$\phi$ = {run.phi}, t = {t:.2f} L/U", picture) for t, picture in zip(*run.pictures(".close"))]
+              for run in runs]
+    draw_pictures([picture for row in zip(*series) for picture in row], len(runs), path, (4, 1.1))
 
 
 def draw_profile(axes, run, words):
@@ -289,8 +296,11 @@ def main():
     runs = sorted(read_runs(folder, "channel-phi*.aggregates", lambda path: Channel(path, si)),
                   key=lambda run: float(run.phi))
     plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "axes.grid": False})
-    draw_pictures(runs, amap, out / "figure09.png")
+    draw_ends(runs, amap, out / "figure09.png")
     draw_profiles(runs, report, out / "figure10.png")
+    close = [run for run in runs if run.pictures(".close")[1]]
+    if close:
+        draw_close_ups(close, out / "figure11.png")
     names = ["in_aggregates", "aggregates", "mean_size"]
     draw_aggregates(runs, report, "12", names, (8800, 2000, 25), out / "figure12.png")
     draw_aggregates(runs, report, "13", ["wall_" + name for name in names], (2200, 200, 25),

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """Draws the report's figures from what in.fiber wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes fiber.png (figures 32, 33, 34), figure30.png (the ends) and compare.txt to DIR, from all fiber-*.captured there.
+Writes fiber.png (figures 32, 33, 34), ends.png (all runs), figure30.png and figure31.png (particles in a layer,
+along the fiber and from its side), figure35.png (dendrites, phi = 1000) and compare.txt to DIR, from all
+fiber-*.captured there; figure29.png (streamlines) from fiber-w8.vtkhdf there or here.
 """
 import sys
 from pathlib import Path
@@ -11,7 +13,10 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Run, arguments, conclude, draw_pictures, read_runs, values_by_run
+from grids import read_grid
+from report import Run, arguments, conclude, draw_pictures, read_runs, trimmed, values_by_run
+
+RADIUS = 1e-5    # of the fiber [m], as in in.fiber
 
 
 def mean(run, key, start, end):
@@ -61,13 +66,65 @@ def draw(runs, path):
     figure.savefig(path, dpi=150)
 
 
+def draw_streamlines(grid, path):
+    """Streamlines past the fiber in the box of the particles (figure 29)."""
+    x, y = grid.x / RADIUS, grid.y / RADIUS
+    u, v = (grid.fluid(grid["velocity"][..., k])[0] for k in (0, 1))
+    figure, axis = plt.subplots(figsize=(5, 5), layout="constrained")
+    places = np.linspace(y[0] + 0.02, y[-1] - 0.02, 33)
+    axis.streamplot(x, y, u, v, start_points=[(x[0] + 0.01, place) for place in places], density=20, linewidth=0.7,
+                    arrowsize=0.6, broken_streamlines=False)
+    axis.add_patch(plt.Circle((0, 0), 1, color="0.7"))
+    axis.set(aspect="equal", xlim=x[[0, -1]], ylim=y[[0, -1]], xlabel="x / L   (air flows to the right)", ylabel="y / L",
+             title="W = 8, Re = 0.178")
+    figure.savefig(path, dpi=120)
+
+
+def draw_layers(runs, layer, path, size):
+    """Particles in a layer, of runs side by side, at the report's times or what is next to them (figures 30, 31)."""
+    columns = []
+    for run in runs:
+        times, paths = run.pictures(layer)
+        near = {int(np.argmin(abs(np.array(times) - t))) for t in (300, 400, 500) if times}
+        columns.append([(f"{words(run)}, t = {times[k]:g} L/U", paths[k]) for k in sorted(near, reverse=True)])
+    pictures = [picture for row in zip(*columns) for picture in row]
+    if pictures:
+        draw_pictures(pictures, len(runs), path, size, trim=True)
+
+
+def draw_dendrites(run, path):
+    """The longest dendrite over time, the stages of the report, and the fiber at the end (figure 35)."""
+    figure, axes = plt.subplots(1, 2, figsize=(11, 3.8), width_ratios=(3, 2), layout="constrained")
+    axes[0].plot(run.t[1:], run.history["dendrite"][1:], linewidth=1, label=words(run))
+    for t in (200, 600):
+        axes[0].axvline(t, color="0.6", linestyle="--", linewidth=0.8)
+    for t, stage in ((100, "capture by\nthe fiber"), (400, "by fiber\nand dendrites"), (700, "by dendrites")):
+        axes[0].text(t, 1.02, f"report:\n{stage}", ha="center", fontsize=8, transform=axes[0].get_xaxis_transform())
+    axes[0].set(xlabel="t  [L/U]", ylabel="longest dendrite [um]", ylim=(0, None), xlim=(0, 800))
+    axes[0].legend(loc="lower right", fontsize=8)
+    times, paths = run.pictures()
+    axes[1].imshow(trimmed(plt.imread(paths[-1])))
+    axes[1].set_title(f"t = {times[-1]:g} L/U, along the fiber, air from above", fontsize=9)
+    axes[1].axis("off")
+    figure.savefig(path, dpi=130)
+
+
 def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
     runs = sorted(read_runs(folder, "fiber-*.captured", lambda path: Run(path, "fiber-")), key=parts)
     draw(runs, out / "fiber.png")
+    air = read_grid("fiber-w8.vtkhdf", ["velocity", "inside"], folder, HERE)
+    if air:
+        draw_streamlines(air, out / "figure29.png")
     draw_pictures([(f"{words(run)}, t = {run.pictures()[0][-1]:g} L/U", run.pictures()[1][-1]) for run in runs], 3,
-                  out / "figure30.png")
+                  out / "ends.png")
+    middle = [run for run in runs if parts(run)[1] == 1000]
+    draw_layers(middle, ".xy", out / "figure30.png", (3.4, 3.6))
+    draw_layers(middle, ".xz", out / "figure31.png", (5, 1.5))
+    for run in middle:
+        if parts(run)[0] == 8:
+            draw_dendrites(run, out / "figure35.png")
     conclude(HERE, values_by_run(runs, values_of),
              [run.cost(f"{run.history['entered'][-1]:.0f} entered") for run in runs], out, kept)
 

@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """Draws the report's figures from what in.nozzle wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi), figure21.png and figure22.png (clogs)
-and compare.txt to DIR, from all nozzle-*.aggregates there.
+Writes figure13.png (water), figure14.png (distance to the walls), figure15.png and figure19.png (particles, by
+length and by phi), figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi),
+figure21.png and figure22.png (clogs) and compare.txt to DIR, from all nozzle-*.aggregates there, and from the flows
+nozzle-LENGTH.vtkhdf there or here.
 """
 import sys
 from pathlib import Path
@@ -12,9 +14,11 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
+from grids import read_grid
 from report import Ours, Run, arguments, conclude, draw_pictures, read_runs, values_by_run
 
 CHANNEL = 5e-4    # width of the channel [m], as in in.nozzle
+LENGTHS = ("0", "0.5", "1")    # of the contraction [widths of the channel]
 TRANSIT = 10 / 1.5    # from the exit to the outlet, 10 D at the largest velocity there [D/U]
 
 
@@ -42,6 +46,38 @@ def values_of(run):
     """The quantities of report.csv."""
     return {"mean size of aggregates": Ours(*run.last("mean_size", 0.75), run.t[-1]),
             "clogs: 1 or 0": Ours(parts(run)[3], t=run.t[-1])}
+
+
+def read_flows(folders):
+    """Water and distance to the walls by length, of those files that there are."""
+    grids = {length: read_grid(f"nozzle-{length}.vtkhdf", ["velocity", "inside", "distance"], *folders) for length in LENGTHS}
+    return {length: grid for length, grid in grids.items() if grid}
+
+
+def draw_entrance(flows, values_of_grid, levels, label, path):
+    """A field near the contraction for each length, in coloured steps, and the walls (figures 13, 14)."""
+    figure, axes = plt.subplots(1, len(flows), figsize=(4 * len(flows) + 0.8, 3.2), layout="constrained",
+                                squeeze=False, sharey=True)
+    for axis, (length, grid) in zip(axes[0], flows.items()):
+        x, y = grid.x / CHANNEL, grid.y / CHANNEL
+        image = axis.contourf(x, y, values_of_grid(grid)[0], levels, cmap="viridis", extend="both")
+        axis.contour(x, y, grid["distance"][0], [0], colors="k", linewidths=1)
+        axis.set(aspect="equal", xlim=(float(length) - 1.2, float(length) + 0.4), ylim=(-0.52, 0.52),
+                 xlabel="x / width of the channel", title=f"length {length}")
+    axes[0, 0].set_ylabel("y / width of the channel")
+    figure.colorbar(image, ax=axes, label=label, shrink=0.8)
+    figure.savefig(path, dpi=120)
+
+
+def draw_particles(runs, columns, path):
+    """Particles at the end of each run (figures 15, 19)."""
+    ends = []
+    for run in runs:
+        length, phi, adhere, clogged = parts(run)
+        times, paths = run.pictures()
+        words = f"length {length}, $\\phi$ = {phi:g}, walls {'adhere' if adhere else 'do not adhere'}, t = {times[-1]:.0f} D/U"
+        ends.append((words + (", clogged" if clogged == 1 else ""), paths[-1]))
+    draw_pictures(ends, columns, path, (4.6, 1), trim=True)
 
 
 def draw_history(runs, path):
@@ -96,15 +132,26 @@ def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
     runs = read_runs(folder, "nozzle-*.aggregates", lambda path: Run(path, "nozzle-"))
+    flows = read_flows((folder, HERE))
+    if flows:
+        draw_entrance(flows, lambda grid: grid.fluid(grid["velocity"][..., 0]), np.linspace(0, 1.5, 16),
+                      "u / U, Re = 100", out / "figure13.png")
+        draw_entrance(flows, lambda grid: grid["distance"] / CHANNEL, np.linspace(-0.15, 0.15, 13),
+                      "distance to the walls / width", out / "figure14.png")
+    usual = [run for run in runs if not kind(run) and run.pictures()[1]]
+    by_length = sorted((run for run in usual if parts(run)[1] == 50), key=lambda run: (parts(run)[0], parts(run)[2]))
+    if by_length:
+        draw_particles(by_length, 2, out / "figure15.png")
     draw_history(runs, out / "figure16.png")
     lengths = [(f"length {length}", [run for run in runs if parts(run)[:2] == (length, 50)],
                 lambda run: ("walls adhere" if parts(run)[2] else "walls do not adhere") + kind(run))
-               for length in ("0", "0.5", "1")]
+               for length in LENGTHS]
     lengths = [group for group in lengths if group[1]]
     if lengths:
         draw_profiles(lengths, out / "figure17.png")
     phis = sorted((run for run in runs if parts(run)[0] == "1" and parts(run)[2]), key=lambda run: parts(run)[1])
     if phis:
+        draw_particles([run for run in phis if run in usual], 1, out / "figure19.png")
         draw_profiles([("length 1, walls adhere", phis, lambda run: f"phi = {parts(run)[1]:g}")],
                       out / "figure20.png")
     draw_clogs(runs, out)

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws the report's figures from what in.pipe wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes figure23.png (no adhesion), figure25.png, figure26.png, figure27.png (adhesion), figure24.png and
-compare.txt to DIR, from all pipe-*.aggregates there.
+Writes particles.png (ends of the runs: figure 23a and with adhesion), figure23.png (no adhesion), figure25.png, figure26.png,
+figure27.png (adhesion), figure24.png and compare.txt to DIR, from all pipe-*.aggregates there.
 """
 import sys
 from pathlib import Path
@@ -12,7 +12,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Run, arguments, conclude, read_runs, values_by_run
+from report import Run, arguments, conclude, draw_pictures, read_runs, values_by_run
 
 VARIANTS = {"plain": "drag alone", "nolift": "no lift, no Magnus force", "e09": "e = 0.9", "soft": "lambda = 1.76e4"}    # names -phiPHI-VARIANT
 STEP, VOLUME = 0.00263, np.pi / 6 * 0.04**3    # particle step, volume of a particle; as in in.pipe
@@ -120,6 +120,9 @@ def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
     runs = sorted(read_runs(folder, "pipe-*.aggregates", Pipe), key=lambda run: float(run.name.split("-")[0][3:]))
+    ends = [(f"{run.words}, t = {times[-1]:.0f} L/U", paths[-1]) for run in runs for times, paths in [run.pictures()] if paths]
+    if ends:
+        draw_pictures(ends, 3, out / "particles.png", (3.3, 1.7), trim=True)
     dry, adhesive = ([run for run in runs if run.adhesive == kind] for kind in (False, True))
     if dry:
         draw_profiles(dry, 3, out / "figure23.png", [(0.2, 0.03), (0.95, 0.008)])

@@ -1,17 +1,24 @@
 #!/usr/bin/python3
 """Draws what has settled where, from what in.radiator wrote, and compares:   plot.py [DIR] [--keep]
 
-Writes deposit.png, figure40.png (a slice before the bar) and compare.txt to DIR, from all radiator-*.captured there.
+Writes deposit.png, figure39.png (bar and particles), figure40.png (a slice before the bar) and compare.txt to DIR,
+from all radiator-*.captured there; figure37.png (the grid of the air's computation) from `case`, figure38.png (the
+air) from radiator.vtkhdf there or here.
 """
 import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
+from grids import read_grid
+from mesh import Mesh, quads
 from report import Run, arguments, conclude, draw_pictures, read_runs, values_by_run
+
+SPEED = 1.667    # of the air at the inlet [m/s], as in in.radiator
 
 ZONES = {"front": "front of the bar", "edges": "edges of the fins", "channels": "walls of the channels"}
 # areas in mm^2: the front with its round corners; the fins behind their round edges, 1.8 mm long, both faces
@@ -46,11 +53,60 @@ def draw(runs, path):
     figure.savefig(path, dpi=150)
 
 
+def both_halves(polygons):
+    """The mesh is mirrored at the middle of the bar."""
+    return np.concatenate([polygons, polygons * (1, -1, 1)])
+
+
+def draw_mesh(mesh, path):
+    """The grid on the walls, and the blocks of the half with y > 0 (figure 37)."""
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), subplot_kw={"projection": "3d"}, layout="constrained")
+    walls = {patch: both_halves(np.concatenate([quads(mesh.face(corners)) for corners in faces]))
+             for patch, faces in mesh.patches.items() if patch in ("bar", "fins")}
+    blocks = {k: np.concatenate([quads(nodes) for nodes in mesh.block_faces(block)])
+              for k, block in enumerate(mesh.blocks)}
+    for axis, parts in zip(axes, (walls, blocks)):    # one collection each, so that what is behind is hidden
+        colours = np.repeat([f"C{k}" for k in range(len(parts))], [len(part) for part in parts.values()])
+        axis.add_collection3d(Poly3DCollection(np.concatenate(list(parts.values())), facecolors=colours,
+                                               edgecolors="k", linewidths=0.12))
+    axes[0].set(xlim=(0, 4), ylim=(-1.5, 1.5), yticks=(-1, 0, 1), title="(a) grid on the bar (blue) and the fin (orange)")
+    axes[1].set(xlim=(-5, 4), ylim=(0, 1.5), yticks=(0, 1.5), title="(b) blocks of one half, from the side of the bar")
+    for axis, side in zip(axes, (-125, -70)):
+        axis.view_init(28, side)
+        axis.set(zlim=(-0.6, 0.6), xlabel="x [mm]", ylabel="y [mm]", zticks=(-0.6, 0.6))
+        axis.set_box_aspect([high - low for low, high in (axis.get_xlim(), axis.get_ylim(), axis.get_zlim())], zoom=1.2)
+    figure.savefig(path, dpi=110)
+
+
+def draw_air(grid, path):
+    """Velocity along x in a plane through the middle of a channel and in two upright planes (figure 38)."""
+    u = grid.fluid(grid["velocity"][..., 0]) / SPEED
+    x, y, z = (1e3 * nodes for nodes in (grid.x, grid.y, grid.z))
+    middle, side = abs(y).argmin(), abs(y - 1).argmin()
+    figure, axes = plt.subplots(1, 3, figsize=(13, 3.2), layout="constrained", width_ratios=(1, 1.1, 1.1))
+    for axis, up, plane, title in ((axes[0], y, u[-1], "(a) z = 0.6 mm, middle of a channel"),
+                                   (axes[1], z, u[:, middle], "(b) y = 0, before the middle of the bar"),
+                                   (axes[2], z, u[:, side], "(c) y = 1 mm, between two bars")):
+        image = axis.contourf(x, up, plane, np.arange(0, 2.9, 0.2), cmap="viridis")
+        axis.set(aspect="equal", xlabel="x [mm]", title=title, facecolor="0.8")
+    axes[0].set_ylabel("y [mm]")
+    axes[1].set_ylabel("z [mm]")
+    figure.colorbar(image, ax=axes, label="u / U")
+    figure.savefig(path, dpi=110)
+
+
 def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
     runs = read_runs(folder, "radiator-*.captured", lambda path: Run(path, "radiator-"))
+    draw_mesh(Mesh(), out / "figure37.png")
+    air = read_grid("radiator.vtkhdf", ["velocity", "inside"], folder, HERE)
+    if air:
+        draw_air(air, out / "figure38.png")
     draw(runs, out / "deposit.png")
+    early = [(f"{words(run)}, t = {t:g} L/U", path) for run in runs for t, path in zip(*run.pictures()) if t in (4, 16)]
+    if early:
+        draw_pictures(early, 2, out / "figure39.png", (4.4, 3.2), trim=True)
     ends = [(f"{words(run)}, t = {times[-1]:g} L/U", paths[-1]) for run in runs
             for times, paths in [run.pictures(".slice")] if paths]
     if ends:

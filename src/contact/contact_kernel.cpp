@@ -105,7 +105,7 @@ static_assert(ContactList::width % width == 0, "a group lies in one block");
 
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling, bool reports>
 APF_INLINE int all_blocks(ContactList &list, Bodies &bodies, ContactTimes times,
-                          ContactParts *parts)
+                          ContactReader *reader)
 {
   auto *rows = bodies.rows<RowOf<Frame>>();
   const int size = list.size();
@@ -132,7 +132,7 @@ APF_INLINE int all_blocks(ContactList &list, Bodies &bodies, ContactTimes times,
     ended = ended + select(out.overlap < c.break_overlap, Real(1.0), Real(0.0));
     if constexpr (reports)
       for (int l = 0; l < width && first + l < size; l++)
-        parts[first + l] = report<Frame>(list, first + l, in, out);
+        reader->read(first + l, report<Frame>(list, first + l, in, out));
   }
   double sum = 0.0;
   for (int l = 0; l < width; l++) sum += ended.lane(l);
@@ -142,10 +142,10 @@ APF_INLINE int all_blocks(ContactList &list, Bodies &bodies, ContactTimes times,
 }
 
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactParts *parts)
+int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactReader *reader)
 {
-  return parts
-      ? all_blocks<Frame, adhesion, sliding, twisting, rolling, true>(list, bodies, times, parts)
+  return reader
+      ? all_blocks<Frame, adhesion, sliding, twisting, rolling, true>(list, bodies, times, reader)
       : all_blocks<Frame, adhesion, sliding, twisting, rolling, false>(list, bodies, times,
                                                                        nullptr);
 }

@@ -22,14 +22,29 @@ struct KernelChoice {
   }
 };
 
-using ContactKernel = int (*)(ContactList &list, Bodies &bodies, ContactTimes times,
-                              ContactParts *parts);
+// Gets what each contact exerts while the kernel runs: there may be millions, too many to keep.
+class ContactReader {
+ public:
+  virtual void read(int k, const ContactParts &) = 0;
 
-// The kernel for a choice. kernel(list, bodies, times, parts):
+ protected:
+  ~ContactReader() = default;
+};
+
+// keeps all of them nevertheless
+struct ContactPartsKept : ContactReader {
+  std::vector<ContactParts> of;
+  void read(int k, const ContactParts &parts) override { of[k] = parts; }
+};
+
+using ContactKernel = int (*)(ContactList &list, Bodies &bodies, ContactTimes times,
+                              ContactReader *reader);
+
+// The kernel for a choice. kernel(list, bodies, times, reader):
 //   adds forces and torques of all contacts to the loads of the bodies' rows, whose velocities are
 //   times.behind older than their positions,
 //   advances the histories by times.advance (0: evaluates only), sets list.overlap,
-//   and, where parts is not null, fills parts[0 .. list.size()-1].
+//   and, where reader is not null, gives it the parts of contacts 0 .. list.size()-1.
 // Returns how many contacts are beyond the end of their neck: these exert nothing, the caller
 // removes them (list.ended).
 ContactKernel contact_kernel(const KernelChoice &choice);

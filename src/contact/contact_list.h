@@ -54,6 +54,11 @@ struct ContactParts {
   double sliding_energy;     // of the sliding spring                              [energy]
   double rolling_energy;     // of the rolling spring                              [energy]
   double twisting_energy;    // of the twisting spring                             [energy]
+
+  double energy() const
+  {
+    return elastic_energy + sliding_energy + rolling_energy + twisting_energy;
+  }
 };
 
 class ContactList {

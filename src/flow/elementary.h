@@ -19,13 +19,13 @@ namespace bits {
   constexpr std::int64_t two52 = 0x4330000000000000;
   constexpr std::int64_t fraction = 0x000fffffffffffff;
 
-  APF_INLINE std::int64_t of(double a)
+  APF_INLINE std::uint64_t of(double a)
   {
-    std::int64_t b;
+    std::uint64_t b;
     std::memcpy(&b, &a, sizeof(b));
     return b;
   }
-  APF_INLINE double number(std::int64_t b)
+  APF_INLINE double number(std::uint64_t b)
   {
     double a;
     std::memcpy(&a, &b, sizeof(a));

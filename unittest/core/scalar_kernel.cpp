@@ -94,7 +94,7 @@ namespace {
   }
 
   template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-  int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactParts *)
+  int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactReader *)
   {
     using Vector = typename Frame::Vector;
     using Tangent = typename Frame::Tangent;

@@ -25,7 +25,12 @@ inline int run_kernel(apf::ContactKernel kernel, bool planar, apf::ContactList &
     bodies.place(b, x + 3 * b);
     bodies.set_motion(b, v + 3 * b, omega + 3 * b);
   }
-  const int ended = kernel(list, bodies, times, parts);
+  struct To : apf::ContactReader {
+    explicit To(apf::ContactParts *array) : to(array) {}
+    void read(int k, const apf::ContactParts &p) override { to[k] = p; }
+    apf::ContactParts *to;
+  } reader(parts);
+  const int ended = kernel(list, bodies, times, parts ? &reader : nullptr);
   for (int b = 0; b < n; b++) bodies.add_load_to(b, f + 3 * b, torque + 3 * b);
   return ended;
 }

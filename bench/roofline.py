@@ -1,0 +1,257 @@
+#!/usr/bin/python3
+"""What the loop of the contact kernel has to do for a contact, beside the time that it takes.
+
+    roofline.py [--measure | --times FILE] [--clock GHZ] [--results DIR] BENCH_KERNEL
+
+Disassembles the program bench_kernel and counts, for each composition of sub-models, dimension and
+instruction set, instructions, vector arithmetic, shuffles, loads, stores, divisions, roots and
+estimates per contact; from these the cycles that a Golden Cove core (Sapphire Rapids) needs at
+least. --measure runs the program, two minutes; --times takes what it wrote, with
+--benchmark_format=json. With either the table is also written to results/kernel.txt. Needs objdump
+of Debian's binutils. kernel.md says more.
+"""
+import argparse
+import json
+import re
+import subprocess
+from collections import Counter
+from pathlib import Path
+
+from lammps_runs import HERE, processor, prose, stop
+
+SETS = ("baseline", "avx2", "avx512")
+# names in bench_kernel: adhesion, sliding, twisting, rolling of the kernel. Damping is no choice.
+COMPOSITIONS = {"normal": "1000", "damping": "1000", "sliding": "1100", "twisting": "1110",
+                "rolling": "1111"}
+
+# ---- what a Golden Cove core can do in a cycle
+# [O]: machine model osaca/data/spr.yml of OSACA (github.com/RRZE-HPC/OSACA), from uops.info and
+# measurements on Sapphire Rapids; [L]: X86SchedSapphireRapids.td of LLVM.
+ISSUE = 6        # micro-operations renamed [L]; an instruction is one or more
+LOADS = 3        # ports 2, 3, 11 [O] [L]
+LOADS_512 = 2    # of 512 bits: ports 2 and 3 [O]
+STORES = 2       # ports 4 and 9; one of 512 bits takes both [O]
+# Ports 0, 1 and 5 compute with vectors, port 1 not with those of 512 bits [O]. A product takes 0 or
+# 1, a shuffle 1 or 5: with three ports the bound is on the low side.
+PORTS = {"baseline": 3, "avx2": 3, "avx512": 2}
+SPLIT = 3        # micro-operations of a division [L] or estimate [O] of 512 bits
+DIVISION = {128: 4, 256: 8, 512: 16}    # cycles of the divider, which takes one at a time [O]
+ROOT = 9 / 8     # of a division: 3.36 ns beside 2.97 for four numbers, measured here (kernel.md)
+
+# ---- reading a disassembly
+
+JUMP = re.compile(r"j(\w+)\s+([0-9a-f]+)$")
+FLAGS = re.compile(r"(v?comis[sd]|cmp|test|add|sub|and|or|xor|neg|inc|dec|sh[lr]|sar|imul)\b")
+SLOW = {"divisions": re.compile(r"v?div[ps][sd]$"), "roots": re.compile(r"v?sqrt[ps][sd]$"),
+        "estimates": re.compile(r"v?r(sqrt|cp)(14)?[ps][sd]$")}
+SHUFFLE = re.compile(r"v?p?(unpck|shuf|perm|insert|extract|insr|extr|broadcast|align|mov[hl]p)")
+
+
+def instructions(text):
+    """Instructions of a disassembled function with their addresses."""
+    return [(int(address, 16), code.strip())
+            for address, code in re.findall(r"^ *([0-9a-f]+):\t([^#<\n]*)", text, re.M)]
+
+
+def kernel(functions, dims, composition, isa):
+    """Instructions of a kernel, found by the name of its template; functions: texts of objdump."""
+    flags = COMPOSITIONS[composition]
+    if dims == "2D":
+        flags = flags[:2] + "0" + flags[3]    # no twisting in the plane
+    name = "int apf::{}::kernel<apf::{}Frame<apf::Pack<[0-9]+> ?>, {}>[(]apf::ContactList&".format(
+        isa, "Plane" if dims == "2D" else "Space",
+        ", ".join("true" if flag == "1" else "false" for flag in flags))
+    found = [text for text in functions if re.search(f"^[0-9a-f]+ <{name}.*>:$", text[:1000], re.M)]
+    if len(found) != 1:
+        raise ValueError(f"{len(found)} functions {name}, expected one")
+    return instructions(found[0])
+
+
+def one_round(code, index, begin):
+    """The instructions of one round of a loop from its beginning; None if it is not one of ours.
+
+    Of jumps by condition two are taken: `jg` back to the beginning, and `ja` after a comparison of
+    floating-point numbers; the only one is whether time advances, and it does. Others lead out of
+    the loop, to the last, incomplete group, or to a call that loads other constants.
+    """
+    path, seen, n, compared = [], set(), begin, ""
+    while n is not None and n < len(code) and n not in seen:
+        seen.add(n)
+        text = code[n][1]
+        path.append(text)
+        n += 1
+        if FLAGS.match(text):
+            compared = text
+        if not text.startswith("j"):
+            if re.match("call|ret", text):
+                return None
+            continue
+        jump = JUMP.match(text)
+        to = index.get(int(jump[2], 16)) if jump else None
+        if to == begin:
+            return path if jump[1] == "g" else None
+        known = ("a", "be") if "comis" in compared else ("e", "ne", "g", "ge", "l", "le")
+        if to in seen or not jump or jump[1] not in known + ("mp",):
+            return None
+        if jump[1] in ("a", "mp"):
+            n = to
+    return None
+
+
+def group_loop(code):
+    """The loop over complete groups of contacts: its instructions, and the contacts of a group.
+
+    It is the one loop with divisions or estimates whose round has no call (there is one where parts
+    are reported) and no loop inside and that goes round while more than width - 1 contacts are
+    left: this number is read from it.
+    """
+    index = {address: n for n, (address, _) in enumerate(code)}
+    begins = {index[to] for n, (_, text) in enumerate(code)
+              if (jump := JUMP.match(text)) and index.get(to := int(jump[2], 16), n + 1) <= n}
+    rounds = [path for begin in sorted(begins) if (path := one_round(code, index, begin)) and
+              any(slow.match(text.split()[0]) for text in path for slow in SLOW.values())]
+    if len(rounds) != 1:
+        raise ValueError(f"{len(rounds)} loops with divisions and without calls, expected one")
+    test = re.match(r"cmp +\w+,0x([0-9a-f]+)$", rounds[0][-2])
+    if not test:
+        raise ValueError(f"the loop ends with '{rounds[0][-2]}', not with a comparison of the "
+                         "contacts left with the width of a group")
+    return rounds[0], int(test[1], 16) + 1
+
+
+def count(loop):
+    """Number of instructions of each sort, of some also by the bits of their registers."""
+    n = Counter(instructions=len(loop))
+    for text in loop:
+        name, _, rest = text.partition(" ")
+        operands = rest.strip().split(",")
+        memory = ["[" in operand for operand in operands]
+        width = next((w for r, w in (("zmm", 512), ("ymm", 256), ("xmm", 128)) if r in rest), 0)
+        if any(memory) and name not in ("lea", "nop"):
+            stored = memory[0] and not re.match(r"cmp|test", name)
+            loaded = not (stored and re.match(r"[vk]?(mov|p?extr)", name))
+            for sort, here in (("stores", stored), ("loads", loaded)):
+                n[sort] += here
+                n[sort, 512] += here and "ZMMWORD" in rest
+        slow = next((sort for sort, pattern in SLOW.items() if pattern.match(name)), None)
+        if slow:
+            n[slow] += 1
+            n[slow, width] += 1
+        elif width and SHUFFLE.match(name):
+            # what the units for loads and stores do themselves: one number to all, a part stored
+            n["shuffles"] += not (memory[0] or "broadcast" in name and memory[-1])
+        elif width and (not re.match(r"v?mov", name) or "{k" in rest):    # a masked move selects
+            cleared = "xor" in name and len(set(operands)) == 1    # done when registers are renamed
+            n["arithmetic", width] += not cleared
+    return n
+
+
+def bounds(n, isa):
+    """Cycles that what was counted takes at least, for each of what may bound it."""
+    slow = sum(k * (SPLIT if key[1] == 512 else 1) for key, k in n.items() if key[0] in SLOW)
+    vector = sum(n["arithmetic", width] for width in DIVISION) + n["shuffles"] + slow
+    divider = sum(cycles * (n["divisions", width] + ROOT * n["roots", width])
+                  for width, cycles in DIVISION.items())
+    return {"issue": n["instructions"] / ISSUE,
+            "loads": max(n["loads"] / LOADS, n["loads", 512] / LOADS_512),
+            "stores": (n["stores"] + n["stores", 512]) / STORES,
+            "ports": vector / PORTS[isa], "divider": divider}
+
+
+# ---- measurements and the table
+
+def measured(text):
+    """Median [ns] and coefficient of variation per contact by name, from JSON of bench_kernel."""
+    times = {}
+    for row in json.loads(text)["benchmarks"]:
+        if row.get("aggregate_name") in ("median", "cv"):
+            name = row["run_name"].split("/min_time")[0]
+            times.setdefault(name, {})[row["aggregate_name"]] = row["per_contact"]
+    return {name: (1e9 * row["median"], row["cv"]) for name, row in times.items()}
+
+
+COUNTS = ("instructions", ("arithmetic", 512), ("arithmetic", 256), ("arithmetic", 128), "shuffles",
+          "loads", "stores", "divisions", "roots", "estimates")
+ORDER = ["2D", "3D", *COMPOSITIONS, "scalar", *SETS, "polydisperse", "bridges", "maugis", "willett",
+         "tangential"]
+WORDS = "instr 512 256 128 shuf load store div root est issue load store ports div".split()
+HEAD = [f"{'':34s}{'per contact':60s}{'cycles at least':29s}{'bound':>7s}{'time':>8s}",
+        f"{'':33s}" + "".join(f"{word:>6s}" for word in WORDS) +
+        f"{'[ns]':>7s}{'[ns]':>8s}{'cv %':>6s}{'ratio':>7s}"]
+
+
+def line(name, functions, times, clock):
+    """One line of the table: counts and bounds where there are any, times where measured."""
+    dims, composition, *between, isa = name.split("/")
+    row, bound = f"{name:33s}" + " " * 97, None
+    if composition in COMPOSITIONS and isa in SETS and not between:
+        try:
+            loop, width = group_loop(kernel(functions, dims, composition, isa))
+        except ValueError as error:
+            raise ValueError(f"{name}: {error}") from None
+        n = count(loop)
+        cycles = bounds(n, isa).values()
+        bound = max(cycles) / width / clock
+        row = f"{name:33s}" + "".join(
+            f"{number / width:6.1f}" for number in [n[key] for key in COUNTS] + list(cycles))
+        row += f"{bound:7.1f}"
+    if name in times:
+        median, variation = times[name]
+        row += f"{median:8.1f}{100 * variation:6.1f}" + (f"{median / bound:7.1f}" if bound else "")
+    return row.rstrip()
+
+
+def output(*command):
+    """What a program prints."""
+    try:
+        return subprocess.run([*map(str, command)], check=True, text=True,
+                              stdout=subprocess.PIPE).stdout
+    except (OSError, subprocess.CalledProcessError) as error:
+        stop(error)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", type=Path, metavar="BENCH_KERNEL")
+    source = parser.add_mutually_exclusive_group()
+    source.add_argument("--measure", action="store_true", help="run the program, two minutes")
+    source.add_argument("--times", type=Path, help="its output with --benchmark_format=json")
+    parser.add_argument("--clock", type=float, metavar="GHZ", help="default: that of /proc/cpuinfo")
+    parser.add_argument("--results", type=Path, default=HERE / "results", metavar="DIR")
+    args = parser.parse_args()
+    if not args.program.is_file():
+        stop(f"{args.program}: not there; a build with -D APF_BENCH=on has bench_kernel")
+    known = re.findall(r"^cpu MHz\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
+    clock = args.clock if args.clock is not None else max(map(float, known), default=0.0) / 1000.0
+    if not clock > 0.0:
+        stop(f"the clock is {clock} GHz, must be > 0; --clock GHZ gives it")
+    functions = output("objdump", "-d", "-C", "-M", "intel", "--no-show-raw-insn",
+                       args.program).split("\n\n")
+    times = {}
+    if args.measure:
+        times = measured(output(args.program, "--benchmark_format=json",
+                                "--benchmark_enable_random_interleaving=true"))
+    elif args.times:
+        times = measured(args.times.read_text())
+    names = times or {f"{dims}/{composition}/{isa}" for dims in ("2D", "3D")
+                      for composition in COMPOSITIONS for isa in SETS} - {
+                          f"2D/twisting/{isa}" for isa in SETS}
+    names = sorted(names, key=lambda name: [ORDER.index(word) for word in name.split("/")])
+    told = "as told" if args.clock else ("of /proc/cpuinfo, which in a virtual machine need not be "
+                                         "the core's")
+    table = prose(f"""{processor()}, one core; clock {clock:.2f} GHz, {told}. Counts of the loop
+        over complete groups of contacts of one kind, by bench/roofline.py; 512, 256, 128:
+        arithmetic by bits of the registers. Bound: the largest of the cycles; ratio: time to bound;
+        both are of the clock. cv: coefficient of variation of nine runs.""") + [""]
+    try:
+        table += HEAD + [line(name, functions, times, clock) for name in names]
+    except ValueError as error:
+        stop(f"{args.program}: {error}")
+    print(*table, sep="\n")
+    if times:
+        args.results.mkdir(parents=True, exist_ok=True)
+        (args.results / "kernel.txt").write_text("\n".join(table) + "\n")
+
+
+if __name__ == "__main__":
+    main()
