@@ -4,6 +4,7 @@
 #include "fmt/format.h"
 #include "given_once.h"
 #include "material_file.h"
+#include "tokenizer.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -245,6 +246,14 @@ void check_bridge(const Words &words, const apf::BridgeModel &bridge)
 }
 
 }    // namespace
+
+/* ---------------------------------------------------------------------- */
+
+bool LAMMPS_NS::is_contact_keyword(const char *word)
+{
+  const auto all = Tokenizer(contact_keywords, ", ").as_vector();
+  return std::find(all.begin(), all.end(), word) != all.end();
+}
 
 /* ---------------------------------------------------------------------- */
 

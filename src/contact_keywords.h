@@ -35,6 +35,8 @@ constexpr const char *contact_keywords =
     "damping, sliding, twisting, rolling, break, scale_stiffness, bridge, form, capillary, "
     "tangential, wet_gamma, inventory";
 
+bool is_contact_keyword(const char *word);
+
 // Parses arg[iarg..narg) up to the first word it does not know, which iarg then points at.
 //   command    names the command in errors, as in "Pair granular/adhesive"
 //   offset     added to an argument's index in errors: words of the input line before arg[0]

@@ -47,6 +47,31 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   surfaces = parse_surfaces(lmp, command, narg, arg, iarg, grid);
   coefficient = parse_contact(lmp, command, narg, arg, iarg, 0);
   const auto names = surface_names(surfaces, grid.get());
+  parse_keywords(names, narg, arg, iarg);
+  ledger.complete(names, grid.get());
+  array_flag = 1;
+  size_array_rows = ledger.n_zones() + 1;
+  size_array_cols = WallLedger::N_COLUMNS;
+  extarray = 0;    // for the counts in it
+  for (const auto &surface : surfaces) clearances.include(surface);
+  wet = coefficient.bridge.present();
+  choice.planar = domain->dimension == 2;
+  choice.include(coefficient.model);
+  kernel = apf::contact_kernel(choice);
+  register_with_atoms();
+}
+
+FixWallLevelset::~FixWallLevelset()
+{
+  delete[] extlist;
+}
+
+/* ---------------------------------------------------------------------- */
+
+// what follows the contact law
+void FixWallLevelset::parse_keywords(const std::vector<std::string> &names, int narg, char **arg,
+                                     int iarg)
+{
   GivenOnce given(lmp, command);
   while (iarg < narg) {
     if (strcmp(arg[iarg], "move") != 0 && strcmp(arg[iarg], "zone") != 0)
@@ -64,28 +89,17 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
       bridges.parse_film(command, narg, arg, iarg);
     } else if (strcmp(arg[iarg], "zone") == 0) {
       ledger.parse(command, names, narg, arg, iarg);
+    } else if (is_contact_keyword(arg[iarg])) {
+      error->all(FLERR, iarg,
+                 "{} keyword {} is one of the contact law: it must come before move, resolution, "
+                 "film and zone",
+                 command, arg[iarg]);
     } else {
       error->all(FLERR, iarg,
                  "{} keyword {} is unknown; known are {}, move, resolution, film, zone", command,
                  arg[iarg], contact_keywords);
     }
   }
-  ledger.complete(names, grid.get());
-  array_flag = 1;
-  size_array_rows = ledger.n_zones() + 1;
-  size_array_cols = WallLedger::N_COLUMNS;
-  extarray = 0;    // for the counts in it
-  for (const auto &surface : surfaces) clearances.include(surface);
-  wet = coefficient.bridge.present();
-  choice.planar = domain->dimension == 2;
-  choice.include(coefficient.model);
-  kernel = apf::contact_kernel(choice);
-  register_with_atoms();
-}
-
-FixWallLevelset::~FixWallLevelset()
-{
-  delete[] extlist;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -135,6 +135,8 @@ class FixWallLevelset : public FixContacts {
     double distance;
   };
   Nearest nearest(const double *x, Marks of_surfaces) const;
+  void parse_keywords(const std::vector<std::string> &surface_names, int narg, char **arg,
+                      int iarg);
   void check_particles();
   void check_places();
   void check_reach(double smallest);

@@ -6,6 +6,7 @@
 #include "options.h"
 #include "progress.h"
 #include "report.h"
+#include "shape_parser.h"
 #include "surface_input.h"
 #include "vtk_guard.h"
 #include "vtk_input.h"
@@ -116,16 +117,20 @@ void tell_slip(size_t wall_points, const Quality &q)
            wall_points, q.slip);
 }
 
-// Told before a long mapping: surfaces that are not there, or that would be written over.
-void check_surface_files(const Options &o)
+// Told before a mesh is read and mapped, which may take long: what is wrong with the words that
+// name walls, and surfaces that would be written over.
+void check_walls(const Options &o)
 {
   for (const auto &words : o.surfaces) {
-    const std::string path = surface_file(words);
+    const SurfaceWords surface(words);
     std::error_code none;
-    if (std::filesystem::equivalent(path, o.isosurface, none))
+    if (std::filesystem::equivalent(surface.file, o.isosurface, none))
       throw std::runtime_error(o.isosurface + ": --isosurface would write over the file of " +
                                "--wall-surface " + words);
   }
+  ShapeTree solids;
+  const Periods periods(o.periodic, Grid());    // any grid: it decides only where copies are
+  for (const auto &shape : o.shapes) parse_shape(shape, periods, solids);
 }
 
 void map(const Options &o)
@@ -223,7 +228,7 @@ int main(int argc, char **argv)
   const Options options = parse(argc, argv);
   guard_against_files();
   try {
-    check_surface_files(options);
+    check_walls(options);
     if (options.input.empty())
       map_walls(options);
     else

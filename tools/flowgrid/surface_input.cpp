@@ -45,9 +45,14 @@ namespace {
                                " triangles, but is too short for them");
   }
 
+  std::string extension(const std::string &path)
+  {
+    return std::filesystem::path(path).extension().string();
+  }
+
   vtkSmartPointer<vtkPolyData> read(const std::string &path)
   {
-    const std::string end = std::filesystem::path(path).extension().string();
+    const std::string end = extension(path);
     vtkObject::GlobalWarningDisplayOff();
     vtkNew<vtkTriangleFilter> triangles;
     triangles->PassLinesOff();
@@ -67,30 +72,30 @@ namespace {
     } else if (end == ".vtp") {
       vtkNew<vtkXMLPolyDataReader> reader;
       from(reader.Get());
-    } else if (end == ".obj") {
+    } else {
       vtkNew<vtkOBJReader> reader;
       from(reader.Get());
-    } else
-      throw std::runtime_error(path + ": a surface must be .stl, .vtp or .obj");
+    }
     return triangles->GetOutput();
   }
 
 }    // namespace
 
-std::string surface_file(const std::string &words)
-{
-  const std::string path = words.substr(0, words.rfind(':'));
-  if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": does not exist");
-  return path;
-}
-
-void read_surface(const std::string &words, double scale, Surface &surface)
+SurfaceWords::SurfaceWords(const std::string &words) : file(words.substr(0, words.rfind(':')))
 {
   const size_t colon = words.rfind(':');
-  const std::string path = surface_file(words);
-  const std::string name = colon == std::string::npos ? std::filesystem::path(path).stem().string()
-                                                      : words.substr(colon + 1);
+  name = colon == std::string::npos ? std::filesystem::path(file).stem().string()
+                                    : words.substr(colon + 1);
+  if (!std::filesystem::exists(file)) throw std::runtime_error(file + ": does not exist");
+  const std::string end = extension(file);
+  if (end != ".stl" && end != ".vtp" && end != ".obj")
+    throw std::runtime_error(file + ": a surface must be .stl, .vtp or .obj");
   check_zone_name(name);
+}
+
+void read_surface(const SurfaceWords &words, double scale, Surface &surface)
+{
+  const std::string &path = words.file;
   vtkSmartPointer<vtkPolyData> data;
   by_vtk(path, [&] {
     data = read(path);
@@ -99,7 +104,7 @@ void read_surface(const std::string &words, double scale, Surface &surface)
     throw std::runtime_error(path + ": cannot be read, or holds no triangles");
   const bool single = data->GetPoints()->GetDataType() == VTK_FLOAT;
   const int zone = static_cast<int>(surface.zones.size());
-  surface.zones.push_back(name);
+  surface.zones.push_back(words.name);
   vtkNew<vtkIdList> corners;
   for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); cell++) {
     data->GetCellPoints(cell, corners);

@@ -7,12 +7,15 @@
 
 namespace flowgrid {
 
-// The file that "FILE" or "FILE:NAME" names. Throws std::runtime_error if it does not exist.
-std::string surface_file(const std::string &words);
+// "FILE" or "FILE:NAME", FILE .stl, .vtp or .obj; NAME is that of the file if it is not given.
+// Throws std::runtime_error if there is no such file, or NAME cannot be part of an array's.
+struct SurfaceWords {
+  explicit SurfaceWords(const std::string &words);
+  std::string file, name;
+};
 
-// Adds what is in "FILE" or "FILE:NAME" (.stl, .vtp or .obj; NAME is that of the file if it is not
-// given), lengths times scale. Throws std::runtime_error.
-void read_surface(const std::string &words, double scale, Surface &surface);
+// Adds what is in it, lengths times scale. Throws std::runtime_error.
+void read_surface(const SurfaceWords &words, double scale, Surface &surface);
 
 }    // namespace flowgrid
 

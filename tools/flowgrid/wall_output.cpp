@@ -74,7 +74,7 @@ namespace {
       Surface surface;
       std::string names;
       for (const auto &words : o.surfaces) {
-        read_surface(words, o.scale, surface);
+        read_surface(SurfaceWords(words), o.scale, surface);
         names += (names.empty() ? "" : ", ") + words;
       }
       wall->add(facet_wall(o, grid, std::move(surface), names));

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char *data, std::size_t siz
   const std::string path = folder.write("input" FUZZ_ENDING, data, size);
   flowgrid::Surface surface;
   try {
-    flowgrid::read_surface(path + ":wall", 1.0, surface);
+    flowgrid::read_surface(flowgrid::SurfaceWords(path + ":wall"), 1.0, surface);
   } catch (const std::bad_alloc &) {    // the program names the file
     return 0;
   } catch (const std::runtime_error &error) {

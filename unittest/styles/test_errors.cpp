@@ -288,7 +288,11 @@ TEST(WallErrors, shape)
        {"zone a: cylinder is neither a surface of this wall nor a region", "surfaces are lo hi"}},
       {"plane y NULL 10" + law + " zone a lo", {"lo is neither", "surfaces are hi"}},
       {"cylinder z 5 5 3 inside" + law + " zone a lo", {"lo is neither", "surfaces are cylinder"}},
-      {"plane y 0 10" + law + " zone a lo sliding 0.3", {"keyword sliding is unknown"}},
+      {"plane y 0 10" + law + " zone a lo slide 0.3", {"keyword slide is unknown"}},
+      {"plane y 0 10" + law + " zone a lo sliding 0.3",
+       {"keyword sliding is one of the contact law", "before move, resolution, film and zone"}},
+      {"plane y 0 10" + law + " move linear 1 0 0 bridge 0.01 1 0 1",
+       {"keyword bridge is one of the contact law", "before move, resolution, film and zone"}},
   };
   for (auto &row : table) row.input = "fix w all wall/levelset " + row.input;
   expect_errors(particles, table);

@@ -204,6 +204,7 @@ TEST(MtsImpact, stiff_spheres_rebound_as_soft_ones)
   }
 }
 
+// damped, with all 750 collision steps
 TEST(MtsImpact, far_from_the_origin_nothing_changes)
 {
   const double V = 3.0 * sticking_speed({0.25, stiff_E, 0.75});
@@ -214,8 +215,8 @@ TEST(MtsImpact, far_from_the_origin_nothing_changes)
   const auto e = restitutions(phases(V, 1e-3, 4), near);
   const auto shifted = restitutions(phases(V, 1e-3, 4), far);
   ASSERT_GT(e[0], 0.1);
-  expect_criterion("C6 mts: change of e 1e4 d from the origin", difference(shifted, e) * largest(e),
-                   0.0, 1e-6);
+  EXPECT_LT(difference(shifted, e) * largest(e), 1e-6);    // rounding; as Integrators.stiff_spheres
+  EXPECT_GT(difference(shifted, e), 0.0);
 }
 
 }    // namespace

@@ -6,6 +6,8 @@
 #include "gtest/gtest.h"
 
 #include <fstream>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
 using namespace flowgrid;
 
@@ -156,6 +158,29 @@ TEST_F(Trust, sizes_that_a_case_does_not_have)
         flowgrid_with((folder / name) + " " + (folder / "out.vtkhdf") + " --spacing 0.3"), name,
         "asks for more memory than there is, or is damaged");
   }
+}
+
+// Points without end, as fast as they are read: files of 34 kbytes have 20 s of the processor.
+TEST_F(Trust, a_case_that_is_read_without_end)
+{
+  fs::copy(poiseuille, folder / "case", fs::copy_options::recursive);
+  const std::string points = folder / "case/constant/polyMesh/points";
+  fs::remove(points);
+  ASSERT_EQ(mkfifo(points.c_str(), 0600), 0);
+  const auto seconds_of_children = [] {
+    rusage used{};
+    getrusage(RUSAGE_CHILDREN, &used);
+    return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+        1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+  };
+  const double before = seconds_of_children();
+  expect_refused(flowgrid_with((folder / "case") + " " + (folder / "out.vtkhdf") + " --spacing 0.3",
+                               "timeout 500 sh -c \"yes ' ' > '" + points + "'\" &"),
+                 "case",
+                 "VTK works on this file for far longer than its size is worth; it is damaged");
+  const double used = seconds_of_children() - before;    // the one that writes is not waited for
+  EXPECT_GT(used, 19.5);
+  EXPECT_LT(used, 25.0);
 }
 
 // Names of patches are not expressions.

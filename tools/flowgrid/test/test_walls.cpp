@@ -3,6 +3,8 @@
 #include "program.h"
 #include "walls.h"
 
+#include <fstream>
+
 using namespace flowgrid;
 
 TEST(Walls, circle)
@@ -245,5 +247,28 @@ TEST(Walls, wrong_shapes_are_pointed_at)
     const auto run = flowgrid_with(row.words + rest);
     EXPECT_EQ(run.status, row.status) << row.words << "\n" << run.text;
     EXPECT_NE(run.text.find(row.message), std::string::npos) << row.words << "\n" << run.text;
+  }
+}
+
+// Walls come last, after a mapping that may take long; their words are looked at first.
+TEST(Walls, wrong_words_are_told_before_the_mesh_is_read)
+{
+  const Folder folder;
+  write_stl(folder / "cube.stl", cube());
+  std::ofstream(folder / "cube.ply") << "";
+  const std::string mesh = poiseuille + " " + (folder / "w.vtkhdf") + " --spacing 0.1 ";
+  const std::pair<std::string, std::string> rows[] = {
+      {"--shape 'a: cone(0,0,0,1)'", "--shape: there is no shape cone"},
+      {"--shape 'a: disc(0,0, 1)' --shape 'a: disc(1,0, 1)'", "--shape: there are two shapes a"},
+      {"--periodic x --shape 'a: plane(0,0,0, 1,1,0)'", "--shape: a plane across a --periodic"},
+      {"--shape 'a-b: disc(0,0, 1)'", "--shape: expected :"},
+      {"--wall-surface none.stl", "none.stl: does not exist"},
+      {"--wall-surface " + (folder / "cube.ply"), (folder / "cube.ply") + ": a surface must be"},
+      {"--wall-surface " + (folder / "cube.stl") + ":a-b", "names of walls take letters, digits"},
+  };
+  for (const auto &[words, message] : rows) {
+    const auto run = flowgrid_with(mesh + words);
+    EXPECT_EQ(run.status, 1) << words;
+    EXPECT_EQ(run.text.find("flowgrid: " + message), 0u) << words << "\n" << run.text;
   }
 }
