@@ -166,17 +166,20 @@ def draw_channel_panel(axis, channel):
 
 
 def draw(elastic, damped, channel, path):
-    """Error over wall-clock time: impacts on the left, the channel on the right."""
-    figure, panels = plt.subplots(1, 2, figsize=(11.5, 5.4))
-    draw_impacts_panel(panels[0], elastic, damped)
-    draw_channel_panel(panels[1], channel)
-    for axis in panels:
+    """Error over wall-clock time, a panel for each part that has run."""
+    parts = [lambda axis: draw_impacts_panel(axis, elastic, damped)] if elastic or damped else []
+    if channel.rows:
+        parts.append(lambda axis: draw_channel_panel(axis, channel))
+    figure, panels = plt.subplots(1, len(parts), figsize=(1.5 + 5 * len(parts), 5.4), squeeze=False)
+    for part, axis in zip(parts, panels[0]):
+        part(axis)
+    for axis in panels[0]:
         axis.grid(True, which="major", color="0.9")
         axis.spines[["top", "right"]].set_visible(False)
         if axis.get_legend_handles_labels()[0]:
             axis.legend(fontsize=8, frameon=False)
     handles = [plt.Line2D([], [], color=COLOURS[f], marker=MARKERS[f], label=f) for f in COLOURS]
-    figure.legend(handles=handles, loc="lower center", ncol=len(COLOURS), frameon=False, fontsize=9)
-    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    figure.legend(handles=handles, loc="lower center", ncol=3 * len(parts), frameon=False, fontsize=9)
+    figure.tight_layout(rect=(0, 0.12 / len(parts), 1, 1))
     figure.savefig(path, dpi=120)
     plt.close(figure)
