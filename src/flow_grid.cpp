@@ -110,6 +110,7 @@ void FlowGrid::check_repeated(const std::vector<double> &u)
         const int index[3] = {i, j, k};
         std::size_t stride = 1;
         for (int axis = 0; axis < lattice.dims; stride *= image.n[axis++]) {
+          // NOLINTNEXTLINE(clang-analyzer-core.*): there are no more than three axes
           if (index[axis] < lattice.n[axis]) continue;
           const double *first = &u[3 * (node - lattice.n[axis] * stride)];
           for (int c = 0; c < lattice.dims; c++)
@@ -117,6 +118,7 @@ void FlowGrid::check_repeated(const std::vector<double> &u)
         }
       }
   for (int axis = 0; axis < lattice.dims; axis++)
+    // NOLINTNEXTLINE(clang-analyzer-core.*): there are no more than three axes
     if (comm->me == 0 && difference[axis] > repeat_tolerance * largest) {
       told_of_repeated = true;
       error->warning(FLERR,

@@ -75,6 +75,7 @@ class GridDistance {
     std::size_t step = 1;
     for (int axis = 0; axis < lattice.dims; axis++) {
       for (std::size_t at = 0; at < from.size(); at++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.*): there are no more than three axes
         if (at / step % n[axis] + 1 == static_cast<std::size_t>(n[axis])) continue;
         const double a = from[at], b = from[at + step];
         if (a > 0.0 && b > 0.0) jumps[axis] = std::max(jumps[axis], std::fabs(b - a));
@@ -146,6 +147,7 @@ class GridDistance {
     const double *p = c;
     for (int axis = 0; axis < dims; axis++) {
       double s;
+      // NOLINTNEXTLINE(clang-analyzer-core.*): there are no more than three axes
       const int i = index(axis, x[axis], s);
       p += (i + margin + (s > 0.5)) * stride[axis];
     }
@@ -340,6 +342,7 @@ class GridDistance {
   {
     const int many = n[axis], wanted = count(lattice, axis);
     std::size_t step = 1, lines = 1;
+    // NOLINTNEXTLINE(clang-analyzer-core.*): there are no more than three axes
     for (int a = 0; a < lattice.dims; a++) (a < axis ? step : lines) *= a == axis ? 1 : n[a];
     to.resize(step * lines * wanted);
     std::vector<double> f(wanted + 2);    // node i stands at i + 2

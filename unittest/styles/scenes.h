@@ -215,7 +215,7 @@ inline std::string log_of(Simulation &sim, const std::string &commands)
   const std::string file = scratch_file("log");
   sim.run("log " + file + "\n" + commands + "log none\n");
   std::ifstream in(file);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text{std::istreambuf_iterator<char>(in), {}};
   std::filesystem::remove(file);
   return text;
 }

@@ -29,6 +29,7 @@ class Simulation {
     std::vector<std::string> words = {"lmp", "-log", "none", "-screen", "none", "-nocite"};
     words.insert(words.end(), extra.begin(), extra.end());
     std::vector<char *> argv;
+    argv.reserve(words.size() + 1);
     for (auto &word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     handle = lammps_open(static_cast<int>(words.size()), argv.data(), ranks, nullptr);
