@@ -1,9 +1,12 @@
 // Right commands of every style of APF, to be spoilt by fuzz_commands, and what must be there
-// before.
+// before. The files that they name are in the folder where it works.
 
 #ifndef APF_FUZZ_COMMANDS_H
 #define APF_FUZZ_COMMANDS_H
 
+#include "vtkhdf_writer.h"
+
+#include <algorithm>
 #include <string>
 
 namespace fuzz {
@@ -28,8 +31,34 @@ thermo 1
 variable zero equal 0.0
 )";
 
+// walls below and above the box and a shear flow between them, which a frame later is faster
+inline void write_grids()
+{
+  const VtkhdfWriter::Counts n = {9, 9, 9};
+  const VtkhdfWriter::Triple origin = {0, 0, 0}, spacing = {1, 1, 1};
+  VtkhdfWriter walls("walls.vtkhdf", n, origin, spacing), flow("flow.vtkhdf", n, origin, spacing);
+  walls.field("distance_floor", 1, [](const double *x, double, double *s) {
+    *s = x[1];
+  });
+  walls.field("distance_lid", 1, [](const double *x, double, double *s) {
+    *s = 8.0 - x[1];
+  });
+  flow.field("distance", 1, [](const double *x, double, double *s) {
+    *s = std::min(x[1], 8.0 - x[1]);
+  });
+  flow.steps({0.0, 1e-5});
+  flow.field("velocity", 3,
+             [](const double *x, double t, double *u) {
+               u[0] = x[1] * (1.0 + 1e4 * t);
+             },
+             {0.0, 1e-5});
+}
+
 // what parts of the words of a command need
 inline const std::string pair = "pair_style granular/adhesive\npair_coeff * * jkr 1e6 0.3 10\n";
+inline const std::string wet_law =
+    "jkr 1e6 0.3 10 bridge 0.01 0.072 20 1e-3 form film inventory 0.5";
+inline const std::string wet = "pair_style granular/adhesive\npair_coeff * * " + wet_law + "\n";
 inline const std::string nve = "fix nve all nve/sphere\n";
 inline const std::string air =
     "fix air all flow/field shear x y 1.0 0.0 density 1.2 viscosity 1.8e-1\n";
@@ -42,6 +71,20 @@ struct Command {
 };
 
 inline const Command commands[] = {
+    {nve + wet,
+     "fix wall all wall/levelset plane y 0 8 jkr 1e6 0.3 10 damping tsuji 0.2 bridge 0.01 0.072 20 "
+     "1e-3 0.01 form film capillary willett tangential yes wet_gamma 2.0 1 1.5 0.5 inventory 0.5 "
+     "even film 1e-3 zone low lo",
+     4},
+    {nve + pair,
+     "fix wall all wall/levelset file walls.vtkhdf array distance_floor array distance_lid jkr 1e6 "
+     "0.3 10 sliding 0.3 resolution 0.1 zone low floor",
+     4},
+    {nve + wet, "fix wall all wall/levelset file walls.vtkhdf " + wet_law + " film 1e-3", 4},
+    {nve + pair,
+     "fix air all flow/field file flow.vtkhdf density 1.2 viscosity 1.8e-5 loop yes outside clamp "
+     "wall reconstruct",
+     4},
     {nve + "pair_style granular/adhesive\n",
      "pair_coeff * * jkr 1e6 0.3 10 damping tsuji 0.8 sliding 0.3 twisting yes rolling 0.02 0.1 "
      "break force scale_stiffness 0.5",

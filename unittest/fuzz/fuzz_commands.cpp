@@ -6,6 +6,7 @@
 
 #include "child.h"
 #include "commands.h"
+#include "input_folder.h"
 #include "simulation.h"
 #include "spoil.h"
 
@@ -92,6 +93,9 @@ int main(int argc, char **argv)
   const int number = argc > 1 ? std::atoi(argv[1]) : 1000;
   const unsigned seed = argc > 2 ? std::atoi(argv[2]) : 1;
   const std::string only = argc > 3 ? argv[3] : "";
+  const fuzz::InputFolder folder;
+  folder.enter();
+  fuzz::write_grids();
   std::vector<std::string> all;
   for (const auto &one : fuzz::commands) all.push_back(one.command);
   fuzz::Mutator mutator(seed, all);

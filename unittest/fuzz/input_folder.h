@@ -24,6 +24,7 @@ class InputFolder {
   InputFolder &operator=(const InputFolder &) = delete;
 
   std::string operator/(const std::string &name) const { return path + "/" + name; }
+  void enter() const { std::filesystem::current_path(path); }
   void clear() const
   {
     for (const auto &entry : std::filesystem::directory_iterator(path))

@@ -1,0 +1,278 @@
+// The styles that have a state, each in a scene that uses it: one table for test_matrix.cpp.
+
+#ifndef APF_TEST_MATRIX_ROWS_H
+#define APF_TEST_MATRIX_ROWS_H
+
+#include "grid_scene.h"
+
+#include <algorithm>
+
+namespace matrix {
+
+constexpr int inner = 8, half = 30;    // steps of a collision in one of particles, of a run's half
+
+struct Row {
+  std::string name;
+  std::string start;     // from units to particles in motion; not given again after a restart
+  std::string styles;    // given again
+  std::vector<std::vector<std::string>> outputs;    // each group is compared to its largest value
+  std::string shift = "4 4 4";                      // through periodic boundaries; empty: see below
+  std::string no_shift, no_data = "data files have no contacts or counters";
+  bool pair_zero = false;
+  double begin = 0.0;    // what a cut changes: forces that follow velocities are taken anew there
+  bool random = false;
+  int empty = 0;    // steps in which some output is 0
+  std::vector<std::string> integrators = {"verlet", "respa", "mts"};
+};
+
+inline std::string box(const std::string &boundary)
+{
+  return "newton on\natom_modify sort 0 0\nunits lj\natom_style sphere\natom_modify map array\n"
+         "comm_modify vel yes\nboundary " +
+      boundary + "\nregion box block 0 8 0 8 0 8\ncreate_box 1 box\n";
+}
+
+struct Mover {
+  double x, y, z, d, vx, vy, vz;
+};
+inline std::string spheres(const std::vector<Mover> &all)
+{
+  std::string text;
+  for (const auto &s : all)
+    text += "create_atoms 1 single " + digits(snap(s.x)) + " " + digits(snap(s.y)) + " " +
+        digits(snap(s.z)) + "\n";
+  for (size_t n = 0; n < all.size(); n++) {
+    const auto &s = all[n];
+    text += "set atom " + std::to_string(n + 1) + " diameter " + digits(s.d) + " density 1 vx " +
+        digits(s.vx) + " vy " + digits(s.vy) + " vz " + digits(s.vz) + " omega " +
+        digits(2.0 - n % 4) + " " + digits(0.5 * (n % 5)) + " 1\n";
+  }
+  return text;
+}
+inline std::string pair_of(const std::string &law)
+{
+  return "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
+}
+inline std::vector<std::string> entries(const std::string &what, int from, int to)
+{
+  std::vector<std::string> all;
+  for (int n = from; n <= to; n++) all.push_back(what + "[" + std::to_string(n) + "]");
+  return all;
+}
+
+// an aggregate on a journey, hit by a bullet
+inline const std::vector<Mover> aggregate = {
+    {4.0, 4.0, 4.0, 1.0, 48.0, -32.0, 64.0},   {4.985, 4.0, 4.0, 1.0, 48.3, -32.1, 64.0},
+    {4.49, 4.85, 4.0, 1.0, 48.6, -32.1, 64.1}, {4.49, 4.29, 4.81, 1.0, 48.0, -32.0, 64.0},
+    {3.3, 3.31, 4.0, 1.0, 48.3, -32.1, 64.0},  {4.49, 4.29, 3.64, 0.2, 48.6, -32.1, 64.1},
+    {6.1, 4.7, 4.3, 0.5, 23.0, -27.0, 61.5}};
+// three in contact with each other, two of them with a floor z = 0, and one that falls on it
+inline const std::vector<Mover> pile = {{3.5, 4.0, 0.49, 1.0, 31.0, 20.5, 0.0},
+                                        {4.48, 4.0, 0.485, 1.0, 30.5, 21.0, 0.0},
+                                        {4.0, 4.2, 1.315, 1.0, 32.0, 20.0, -1.0},
+                                        {4.0, 6.0, 0.6, 1.0, 20.0, -9.0, -20.0}};
+// in a cylinder of radius 3.5 about (4, 4): on its wall, and a pair
+inline const std::vector<Mover> pipe = {{4.0, 0.99, 4.0, 1.0, 3.0, 0.0, 40.0},
+                                        {7.013, 4.0, 4.3, 1.0, 0.0, 2.0, 40.0},
+                                        {4.9, 1.32, 4.3, 1.0, 1.0, 0.0, 40.0},
+                                        {4.0, 6.9, 4.1, 1.0, 0.0, 20.0, 41.0}};
+
+inline const std::string lossy = jkr + "damping tsuji 0.5" + all_friction;
+inline const std::string wet = " jkr 1.0e6 0.25 20.0 damping alpha 0.3 sliding 0.3 rolling 0.02 "
+                               "bridge 0.02 40.0 10 0.3 0.01 tangential yes inventory 0.3 ";
+inline const std::string agg =
+    "compute agg all aggregate/contact\ncompute sum all reduce sum c_agg[1] "
+    "c_agg[2] c_agg[3] c_agg[4] c_agg[5] c_agg[6]\n";
+inline const std::vector<std::string> of_agg = {"c_agg[1]", "c_agg[2]", "c_agg[3]"};
+
+// some of all sizes in a fluid, not in contact
+inline std::string crowd()
+{
+  std::vector<Mover> all;
+  for (int n = 0; n < 40; n++)
+    all.push_back({0.5 + n % 4 * 2.0 + 0.1 * (n % 7), 0.6 + n / 4 % 4 * 2.0, 0.7 + n / 16 * 2.0,
+                   n % 3 ? 0.4 : 0.6, 3.0 * (n % 5) - 6.0, 40.0, 1.0 * (n % 3)});
+  return spheres(all) + "pair_style zero 1.0 nocoeff\npair_coeff * *\n";
+}
+
+struct Files {
+  TemporaryFile pipe{"apf_matrix_pipe"}, series{"apf_matrix_series"};
+  Files()
+  {
+    pipe.write({41, 41, 41}, {0, 0, 0}, {0.2, 0.2, 0.2}, [](VtkhdfWriter &w) {
+      w.field("distance", 1, [](const double *x, double, double *phi) {
+        *phi = 3.5 - std::hypot(x[0] - 4.0, x[1] - 4.0);
+      });
+    });
+    series.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, [](VtkhdfWriter &w) {
+      w.steps({0.0, 0.015, 0.04});
+      w.field("velocity", 3,
+              [](const double *, double t, double *u) {
+                u[0] = t < 0.01 ? 9.0 : -20.0;
+                u[1] = 30.0 + 100.0 * t;
+              },
+              {0.0, 0.015, 0.04});
+    });
+  }
+};
+
+inline std::vector<Row> table(const Files &files)
+{
+  const std::string floor = "fix wall all wall/levelset plane z 0 NULL" + lossy;
+  const std::string pull = "fix pull all gravity 50 vector 1 0.5 -1\n";
+  const std::string loads = "thermo_modify norm no\n";
+  std::vector<Row> rows;
+  auto add = [&](const std::string &name) -> Row & {
+    rows.emplace_back();
+    rows.back().name = name;
+    return rows.back();
+  };
+  {
+    auto &row = add("pair granular/adhesive, fix contact/history");
+    row.start = box("p p p") + spheres(aggregate) + pair_of(lossy);
+    row.outputs = {{"pe"}};
+  }
+  {
+    auto &row = add("... with bridges and the liquid of particles");
+    row.start = box("p p p") + spheres(aggregate) + pair_of(wet);
+    row.styles = agg + "neighbor 0.6 bin\n";
+    row.outputs = {of_agg, entries("c_sum", 4, 5), {"c_sum[6]"}};
+  }
+  {
+    auto &row = add("compute aggregate/contact");
+    row.start = box("p p f") + spheres(pile) + pair_of(lossy);
+    row.styles = floor + "\n" + agg;
+    row.outputs = {of_agg, entries("c_agg", 4, 6), entries("c_sum", 2, 4)};
+    row.shift = "4 4 0";
+  }
+  {
+    auto &row = add("fix wall/levelset plane, zones");
+    row.start = box("p p f") + spheres(pile) + pair_of(lossy);
+    row.styles = floor + " zone floor lo\n" + pull;
+    row.outputs = {entries("f_wall", 1, 3), entries("f_wall", 7, 9), entries("f_wall[1]", 8, 11)};
+    row.shift = "4 4 0";
+  }
+  {
+    auto &row = add("compute wall/deposit");
+    row.start = box("p p f") + spheres(pile) + pair_of(lossy);
+    row.styles = floor + " zone floor lo\n" + pull +
+        "compute dust all wall/deposit wall zone floor\ncompute sum all reduce sum c_dust\n";
+    row.outputs = {{"c_dust[1]"}, {"c_dust[2]"}, {"c_dust[3]"}, {"c_sum"}};
+    row.shift = "4 4 0";
+  }
+  {
+    auto &row = add("fix wall/levelset cylinder");
+    row.start = box("f f p") + spheres(pipe) + pair_of(lossy);
+    row.styles = "fix wall all wall/levelset cylinder z 4 4 3.5 inside" + lossy + "\n";
+    row.outputs = {entries("f_wall", 1, 3), entries("f_wall", 7, 9)};
+    row.shift = "0 0 4";
+  }
+  {
+    auto &row = add("fix wall/levelset file");
+    row.start = box("f f p") + spheres(pipe) + pair_of(lossy);
+    row.styles = "fix wall all wall/levelset file " + files.pipe.path + lossy + "\n";
+    row.outputs = {entries("f_wall", 1, 3), entries("f_wall", 7, 9)};
+    row.shift = "0 0 4";
+  }
+  {
+    auto &row = add("fix wall/levelset move, by variables");
+    row.start = box("p p f") + spheres(pile) + pair_of(lossy);
+    row.styles = "variable shake equal 1.5*sin(200*time)\nvariable side equal 3\n" + floor +
+        " move linear v_side 0 v_shake\n" + pull;
+    row.outputs = {entries("f_wall", 1, 3), entries("f_wall", 7, 9)};
+    row.shift = "4 4 0";
+  }
+  {
+    auto &row = add("fix wall/levelset with a film, bridges");
+    row.start = box("p p f") + spheres(pile) + pair_of(wet);
+    row.styles = "fix wall all wall/levelset plane z 0 NULL" + wet + "film 0.01\n" + agg +
+        "neighbor 0.6 bin\n";
+    row.outputs = {entries("f_wall", 1, 3), {"f_wall[12]"}, {"c_sum[6]"}};
+    row.shift = "4 4 0";
+  }
+  {
+    auto &row = add("fix inlet/flow, fix flow/force drag");
+    row.start = box("f p p") + pair_of(jkr);
+    row.styles = "fix air all flow/field uniform 200 0 0 density 1 viscosity 1\n"
+                 "fix in all inlet/flow x 0 air concentration 0.02 diameter uniform 0.3 0.5 "
+                 "density 1 type 1 seed 7 outlet x 5\n"
+                 "fix drag all flow/force air drag stokes torque yes\nneighbor 0.6 bin\n";
+    row.outputs = {entries("f_in", 1, 2), entries("f_in", 3, 4), {"f_in[9]"}};
+    row.no_shift = "places where particles enter do not move along";
+    row.empty = 2 * half - 1;
+  }
+  {
+    auto &row = add("fix flow/force brownian, all forces");
+    row.start = box("p p p") + crowd();
+    row.styles = "fix air all flow/field uniform 30 9 1 density 0.2 viscosity 0.5\n"
+                 "fix drag all flow/force air drag schiller torque yes lift saffman magnus yes "
+                 "added_mass yes pressure yes gravity 0 0 -9 brownian 0.5 4711\n";
+    row.integrators = {"verlet"};    // added_mass refuses respa
+    row.outputs = {entries("f_drag", 1, 3)};
+    row.pair_zero = row.random = true;
+    row.no_data = "";
+    row.begin = 1e-2;
+  }
+  {
+    auto &row = add("fix flow/field by variables, added mass and pressure");
+    row.start = box("p p p") + crowd();
+    row.styles = "variable u equal 30*sin(300*time)\n"
+                 "fix air all flow/field uniform v_u 9 1 density 0.2 viscosity 0.5\n"
+                 "fix drag all flow/force air drag stokes added_mass yes pressure yes\n";
+    row.integrators = {"verlet"};
+    row.outputs = {entries("f_drag", 1, 3)};
+    row.pair_zero = true;
+    row.no_data = "data files have no rate of change of the flow";
+    row.begin = 1e-3;
+  }
+  {
+    auto &row = add("fix flow/field file, series");
+    row.start = box("p p p") + crowd();
+    row.styles = "fix air all flow/field file " + files.series.path +
+        " density 0.2 viscosity 0.5\nfix drag all flow/force air drag stokes torque yes\n";
+    row.outputs = {{"f_air[6]"}, entries("f_drag", 1, 3)};
+    row.pair_zero = true;
+    row.no_data = "";
+    row.begin = 1e-3;
+  }
+  {
+    auto &row = add("fix flow/concentration, feedback");
+    row.start = box("p p p") + crowd();
+    row.styles = "fix air all flow/field uniform 30 9 1 density 0.2 viscosity 0.5\n"
+                 "fix c all flow/concentration 16 16 16 cloud 0.8 method direct\n"
+                 "fix drag all flow/force air drag difelice concentration c torque yes feedback "
+                 "yes\n";
+    row.outputs = {{"f_c[1]"}, {"f_c[2]"}, entries("f_drag", 1, 3)};
+    row.pair_zero = true;
+    row.no_data = "";
+    row.begin = 1e-3;
+  }
+  {
+    auto &row = add("fix nve/sphere/mts collision auto");
+    row.start = box("p p p") + spheres(aggregate) + pair_of(lossy);
+    row.integrators = {"mts auto"};
+    row.outputs = {{"f_nve[1]"}, {"f_nve[3]"}};
+  }
+  for (auto &row : rows) {
+    row.styles += loads;
+    auto &all =
+        row.integrators;    // without a pair style that keeps contacts nothing is sub-stepped
+    if (row.pair_zero) all.erase(std::remove(all.begin(), all.end(), "mts"), all.end());
+  }
+  return rows;
+}
+
+inline std::string integrate(const std::string &name)
+{
+  if (name == "verlet") return "fix nve all nve/sphere\ntimestep " + digits(inner * dt) + "\n";
+  if (name == "respa")
+    return "fix nve all nve/sphere\ntimestep " + digits(inner * dt) + "\nrun_style respa 2 " +
+        std::to_string(inner) + " pair 1\n";
+  if (name == "mts auto")
+    return "fix nve all nve/sphere/mts collision auto\ntimestep " + digits(inner * dt) + "\n";
+  return mts(inner);
+}
+
+}    // namespace matrix
+
+#endif
