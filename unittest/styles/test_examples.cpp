@@ -51,7 +51,7 @@ std::string verdict(const std::string &name, const std::string &script,
     words.push_back(word);
   Simulation sim(words);
   sim.run("include " + folder + "/in." + script + "\nlog none\n");
-  const std::string said =
+  std::string said =
       static_cast<const char *>(lammps_extract_variable(sim.lammps(), "verdict", nullptr));
   std::filesystem::remove_all(out);
   return said;

@@ -7,7 +7,7 @@
 namespace {
 
 // sum of (observed - expected)^2 / expected over bins of equal expectation
-double chi_square(std::vector<double> u, int bins)
+double chi_square(const std::vector<double> &u, int bins)
 {
   std::vector<int> count(bins, 0);
   for (double value : u) count[std::min(bins - 1, static_cast<int>(value * bins))]++;

@@ -298,7 +298,7 @@ TEST(RanksWall, loads_balance_those_on_the_particles)
     const bool plane = wall == rough;
     Scene scene = at_wall(wall, plane ? "p p f" : "p f f");
     const double z = plane ? 0.48 : 0.485;
-    build(sim, {{1.0, plane ? 2.0 : 4.0, z}, {6.0, plane ? 7.0 : 4.1, plane ? 0.49 : 0.49}}, scene);
+    build(sim, {{1.0, plane ? 2.0 : 4.0, z}, {6.0, plane ? 7.0 : 4.1, 0.49}}, scene);
     load_wall_springs(sim);
     const State s = state_of(sim);
     ASSERT_GT(largest(s.torque), 0.1);
