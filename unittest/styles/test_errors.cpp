@@ -210,6 +210,16 @@ TEST(PairErrors, overlap_above_half_the_radius_stops_the_run)
                   {"types 1 1", "overlap by 0.597", "E 41.3 times", "0.5"}}});
 }
 
+// Hertz's overlap under the pull of the liquid F = 4 pi R sigma: (3 F / (4 E R^1/2))^(2/3) = 0.6 r
+TEST(PairErrors, overlap_by_the_pull_of_a_bridge_stops_the_run)
+{
+  const double F = std::pow(0.3, 1.5) * 4.0 * 50.0 * 0.5 / 3.0;
+  expect_errors(
+      particles + style,
+      {{"pair_coeff * * jkr 100 0 0 bridge 0.01 " + std::to_string(F / M_PI) + " 0 0\nrun 0",
+        {"types 1 1", "overlap by 0.6 ", "E 41.6 times", "0.5"}}});
+}
+
 TEST(PairWarnings, overlap_above_five_percent_and_its_cure)
 {
   auto log = [](const std::string &E) {
