@@ -137,7 +137,7 @@ std::vector<Row> law_errors(const std::string &line, const std::string &command)
       {"bridge 0.01 0 0 1e-3", {command, "surface tension sigma must be > 0, got 0"}},
       {"bridge 0.01 0.07 90 1e-3", {command, "contact angle theta must be in [0, 89], got 90"}},
       {"bridge 0.01 0.07 0 -1", {command, "viscosity mu must be >= 0, got -1"}},
-      {"bridge 0.01 0.07 0 1e-3 0", {command, "hmin over R must be in (0, 1], got 0"}},
+      {"bridge 0.01 0.07 0 1e-3 0", {command, "hmin over R must be in [1e-12, 1], got 0"}},
       {"form drop", {command, "form must be contact or film, got drop"}},
       {"form film", {command, "need keyword bridge"}},
       {"tangential yes", {command, "need keyword bridge"}},
