@@ -3,6 +3,7 @@
 #ifndef APF_CONTACT_CHECKS_H
 #define APF_CONTACT_CHECKS_H
 
+#include "contact/bridge.h"
 #include "contact/stiffness.h"
 
 #include <string>
@@ -10,10 +11,11 @@
 namespace LAMMPS_NS {
 class LAMMPS;
 
-// Particles at rest that overlap by more than 5 % of the smaller radius: warning; 50 %: error.
+// Particles at rest that overlap by more than 5 % of the smaller radius, by their adhesion and the
+// pull of a bridge: warning; 50 %: error.
 //   who   begins the message, as in "Pair granular/adhesive types 1 2"
-void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel &model, double R,
-                   double smaller_radius);
+void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel &model,
+                   const apf::BridgeModel &bridge, double R, double smaller_radius);
 
 // An error in units where force is not mass times acceleration, or E no pressure.
 void check_units(LAMMPS *lmp, const std::string &who);

@@ -159,7 +159,7 @@ void parse_bridge(Words &words, apf::BridgeModel &bridge)
   bridge.theta = words.number("bridge contact angle theta", 0.0, true, 89.0) * apf::pi / 180.0;
   bridge.mu = words.number("bridge viscosity mu", 0.0, true, infinity);
   if (words.is_number())
-    bridge.roughness = words.number("bridge least gap hmin over R", 0.0, false, 1.0);
+    bridge.roughness = words.number("bridge least gap hmin over R", 1e-12, true, 1.0);
 }
 
 double parse_wet_gamma(Words &words)

@@ -163,7 +163,8 @@ void FixWallLevelset::check_particles()
     if (coefficient.model.adhesive())
       overlap_at_rest =
           std::max(overlap_at_rest, coefficient.model.normal(bodies.R).equilibrium_overlap() / r);
-    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model, bodies.R, r);
+    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model,
+                  coefficient.bridge, bodies.R, r);
     if (step_is_given() && m > 0.0)    // LAMMPS's own inserters do not tell the mass
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
                      apf::stiffest_mode({coefficient.bridge, coefficient.model}, bodies, r),

@@ -26,8 +26,11 @@ void WallBridges::parse_film(const char *command, int narg, char **arg, int &iar
   if (!utils::is_double(arg[iarg + 1]))
     error->all(FLERR, iarg + 1, "{} film must be a number, got {}", command, arg[iarg + 1]);
   first_film = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  if (!(first_film >= 0.0))
-    error->all(FLERR, iarg + 1, "{} film must be >= 0, got {}", command, arg[iarg + 1]);
+  const double most = std::max(std::max(domain->prd[0], domain->prd[1]), domain->prd[2]);
+  if (!(first_film >= 0.0 && first_film <= most))
+    error->all(FLERR, iarg + 1,
+               "{} film must be in [0, {:.4g}], the longest side of the box, got {}", command, most,
+               arg[iarg + 1]);
   if (!wall->coefficient.bridge.inventory())
     error->all(FLERR, iarg, "{} film needs a law with keyword inventory", command);
   if (domain->dimension == 2)

@@ -329,7 +329,7 @@ class GridDistance {
   {
     double s = (x - origin[axis]) * per_length[axis];
     if (per_cells[axis] != 0.0) s -= cells[axis] * std::floor(s * per_cells[axis]);
-    s = std::min(std::max(s, 0.0), cells[axis]);
+    s = std::min(std::max(0.0, s), cells[axis]);    // 0 where s is no number: LAMMPS tells it later
     const int i = std::min(static_cast<int>(s), static_cast<int>(cells[axis]) - 1);
     part = s - i;
     return i;

@@ -192,4 +192,6 @@ TEST(GridDistance, outside_of_the_grid_its_border_counts)
   const double inside[3] = {1.0, 0.0, 0.0}, outside[3] = {1.7, 0.0, 0.0};
   EXPECT_NEAR(field.grid.distance(outside), 2.5, 1e-14);
   EXPECT_NEAR(field.grid.distance(inside), 2.5, 1e-14);
+  const double lost[3] = {std::nan(""), 0.0, 0.0};    // for LAMMPS to find: no crash here
+  EXPECT_NEAR(field.grid.distance(lost), 0.5, 1e-14);
 }

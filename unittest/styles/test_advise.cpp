@@ -160,7 +160,7 @@ TEST(Advise, has_nothing_to_change_in_a_good_scene)
 TEST(Advise, bridge_counts_where_it_is_the_stiffest)
 {
   const double sigma = 20000.0, l = 0.0002, V = l * pi / 6.0;
-  const std::string law = " jkr 1e3 0.25 0 bridge 0.0002 20000 20 0 ";
+  const std::string law = " jkr 2e6 0.25 0 bridge 0.0002 20000 20 0 ";
   Scene scene;
   scene.boundary = "f p p";
   scene.style = "pair_style granular/adhesive\npair_coeff * *" + law +

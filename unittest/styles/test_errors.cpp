@@ -137,7 +137,7 @@ std::vector<Row> law_errors(const std::string &line, const std::string &command)
       {"bridge 0.01 0 0 1e-3", {command, "surface tension sigma must be > 0, got 0"}},
       {"bridge 0.01 0.07 90 1e-3", {command, "contact angle theta must be in [0, 89], got 90"}},
       {"bridge 0.01 0.07 0 -1", {command, "viscosity mu must be >= 0, got -1"}},
-      {"bridge 0.01 0.07 0 1e-3 0", {command, "hmin over R must be in (0, 1], got 0"}},
+      {"bridge 0.01 0.07 0 1e-3 0", {command, "hmin over R must be in [1e-12, 1], got 0"}},
       {"form drop", {command, "form must be contact or film, got drop"}},
       {"form film", {command, "need keyword bridge"}},
       {"tangential yes", {command, "need keyword bridge"}},
@@ -208,6 +208,16 @@ TEST(PairErrors, overlap_above_half_the_radius_stops_the_run)
   expect_errors(particles + style,
                 {{"pair_coeff * * jkr 100 0 3\nrun 0",
                   {"types 1 1", "overlap by 0.597", "E 41.3 times", "0.5"}}});
+}
+
+// Hertz's overlap under the pull of the liquid F = 4 pi R sigma: (3 F / (4 E R^1/2))^(2/3) = 0.6 r
+TEST(PairErrors, overlap_by_the_pull_of_a_bridge_stops_the_run)
+{
+  const double F = std::pow(0.3, 1.5) * 4.0 * 50.0 * 0.5 / 3.0;
+  expect_errors(
+      particles + style,
+      {{"pair_coeff * * jkr 100 0 0 bridge 0.01 " + std::to_string(F / M_PI) + " 0 0\nrun 0",
+        {"types 1 1", "overlap by 0.6 ", "E 41.6 times", "0.5"}}});
 }
 
 TEST(PairWarnings, overlap_above_five_percent_and_its_cure)

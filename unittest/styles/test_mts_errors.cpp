@@ -118,7 +118,7 @@ TEST(MtsErrors, summary_at_the_end_of_a_run)
   Simulation wet;
   build(wet, {{3.0, 4.0, 4.0}, {3.995, 4.0, 4.0}});
   expect_words(log_of(wet,
-                      "pair_coeff * * jkr 1e3 0.25 0.01 bridge 0.0002 20000 20 1 0.01\n"
+                      "pair_coeff * * jkr 2e6 0.25 0.01 bridge 0.0002 20000 20 1 0.01\n"
                       "fix nve all nve/sphere/mts collision auto\nrun 1\n"),
                {"finest step set by bridge mode"});
   Simulation none;
