@@ -102,7 +102,10 @@ class PairGranularAdhesive : public Pair {
   static constexpr int bridge_energy = 4, n_energies = 5;
 
   // parts of all contacts at one timestep, for single()
-  apf::ContactPartsKept parts;
+  struct KeptParts : apf::ContactReader {
+    std::vector<apf::ContactParts> of;
+    void read(int k, const apf::ContactParts &p) override { of[k] = p; }
+  } parts;
   PairIndex index_of_pair;
   bigint parts_step = -1;
 

@@ -23,18 +23,13 @@ struct KernelChoice {
 };
 
 // Gets what each contact exerts while the kernel runs: there may be millions, too many to keep.
+// No reader stands here, or each instruction set would compile its own (test instruction_sets).
 class ContactReader {
  public:
   virtual void read(int k, const ContactParts &) = 0;
 
  protected:
   ~ContactReader() = default;
-};
-
-// keeps all of them nevertheless
-struct ContactPartsKept : ContactReader {
-  std::vector<ContactParts> of;
-  void read(int k, const ContactParts &parts) override { of[k] = parts; }
 };
 
 using ContactKernel = int (*)(ContactList &list, Bodies &bodies, ContactTimes times,
