@@ -105,7 +105,8 @@ def header(path, lines):
 def read_history(path):
     """A file of fix ave/time with scalars over time: one Table. Names are those of its second line.
 
-    A run that went on from a restart file may have written a step twice: the later row counts.
+    A run that went on from a restart file may have written a step twice: the later row counts. A table whose
+    first column is not the step, as a study prints one, stays as it is.
     """
     lines = lines_of(path)
     names = header(path, lines)[1]
@@ -113,8 +114,10 @@ def read_history(path):
             for number, line in enumerate(lines, 1) if line and not line.startswith("#")]
     if not rows:
         stop(path, "holds no numbers yet")
-    by_step = {row[0]: row for row in rows}
-    return Table(Path(path), names, np.array([by_step[step] for step in sorted(by_step)]))
+    if names[0].lower() in ("timestep", "step"):
+        by_step = {row[0]: row for row in rows}
+        rows = [by_step[step] for step in sorted(by_step)]
+    return Table(Path(path), names, np.array(rows))
 
 
 def read_blocks(path):

@@ -144,6 +144,10 @@ class Plot(unittest.TestCase):
         blocks = apf_read.read_blocks(self.file(ZONES + ZONES[ZONES.index("0 2"):].replace("3 1e-6", "4 1e-6")))
         self.assertEqual([(block.step, block["f_w[9]"][0]) for block in blocks], [(0, 0), (20, 4)])
 
+    def test_table_of_a_study_keeps_rows_of_the_same_value(self):
+        table = apf_read.read_history(self.file("# dust\n# gamma[J/m^2] seed stuck\n0.2 1 5\n0.2 2 7\n0.1 1 9\n"))
+        self.assertEqual(table["stuck"].tolist(), [5, 7, 9])
+
     def test_profile(self):
         path = self.file(CHUNKS)
         curves, _ = self.draw("profile", path, "--y", "density/number", "vx", "--steps", "100", "200")
