@@ -131,11 +131,10 @@ template <class Memory> class PartnerRecords {
   struct Record {
     Memory memory;        // as the first of the two atoms sees it
     tagint partner[2];    // of each
-    int before[2];        // the next of the same atom
+    int before[2];        // link to the next of the same atom
   };
   std::vector<Record> records;
-  std::vector<int>
-      last;    // of each atom where its chain begins: twice the record + which of the two
+  std::vector<int> last;    // link to the newest of each atom: twice the record + which of the two
   bool in_plane = false;
 
   int before(int link) const { return records[link / 2].before[link % 2]; }
