@@ -40,8 +40,8 @@ def read_history(path):
 
 
 def read_blocks(path):
-    """Blocks of fix ave/chunk or ave/histo: list of (step, rows of numbers); whole blocks only."""
-    return [(block.step, block.rows) for block in apf_read.read_blocks(path)]
+    """Blocks of fix ave/chunk or ave/histo: list of (step, rows of numbers); whole blocks only, none in a short run."""
+    return [(block.step, block.rows) for block in apf_read.whole_blocks(path)]
 
 
 def memory(log):
@@ -116,6 +116,15 @@ def read_runs(folder, pattern, make):
     if not runs:
         stop(folder / pattern, "missing; run the input script with -var dir first")
     return runs
+
+
+def those_with(runs, has, what, figures):
+    """The runs that have what the figures need; a line names the others, and says what becomes of the figures."""
+    some = [run for run in runs if has(run)]
+    short = ", ".join(f"{run.path.stem} (t = {run.t[-1]:g})" for run in runs if run not in some)
+    if short:
+        print(f"{figures}: no {what} yet of {short}; {'drawn without' if some else 'not drawn'}", file=sys.stderr)
+    return some
 
 
 def trimmed(image):
@@ -235,7 +244,9 @@ def in_words(row, ours):
 
 
 def text_of(rows):
-    """Rows of dicts as text with aligned columns."""
+    """Rows of dicts as text with aligned columns; empty if there are none."""
+    if not rows:
+        return ""
     lines = [list(rows[0]), *(list(row.values()) for row in rows)]
     widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
     return "".join("  ".join(w.ljust(n) for w, n in zip(line, widths)).rstrip() + "\n" for line in lines)
@@ -284,7 +295,8 @@ def values_by_run(runs, values_of):
 
 def conclude(example, values, runs, out, kept):
     """Prints the table report / ours and what the runs cost; writes both to out/compare.txt, or keeps the numbers."""
-    text = text_of(compare(read_report(example / "report.csv"), values)) + "\n" + text_of(runs)
+    table = text_of(compare(read_report(example / "report.csv"), values))
+    text = (table or "no number to compare with the report's\n") + "\n" + text_of(runs)
     print(text, end="")
     if kept:
         keep(example, values, runs)

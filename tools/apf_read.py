@@ -120,9 +120,9 @@ def read_history(path):
     return Table(Path(path), names, np.array(rows))
 
 
-def read_blocks(path):
+def whole_blocks(path):
     """A file of fix ave/chunk, ave/histo or ave/time with vectors: a Table for each whole block, the later
-    one of those of the same step."""
+    one of those of the same step; none as long as a run has written none."""
     lines = lines_of(path)
     heads = header(path, lines)
     if len(heads) < 3:
@@ -137,9 +137,12 @@ def read_blocks(path):
         rows = [numbers(path, *one, len(heads[2])) for one in data[begin + 1:begin + 1 + count]]
         blocks[step] = Table(Path(path), heads[2], np.array(rows), step)
         begin += 1 + count
-    if not blocks:
-        stop(path, "holds no block yet")
     return [blocks[step] for step in sorted(blocks)]
+
+
+def read_blocks(path):
+    """As whole_blocks, of which there must be one."""
+    return whole_blocks(path) or stop(path, "holds no block yet")
 
 
 @dataclass

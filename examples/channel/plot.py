@@ -17,10 +17,11 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Ours, Run, arguments, conclude, draw_pictures, read_report, read_runs, stop
+from report import Ours, Run, arguments, conclude, draw_pictures, read_report, read_runs, stop, those_with
 
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#000000"]
 DASHES = ["-", "--", "-.", (0, (1, 1.2))]
+PARTICLES = 8000    # as in in.channel, which loses none
 
 
 # ---------------------------------------------------------------------- reading
@@ -34,20 +35,20 @@ def read_input():
 
 
 class Channel(Run):
-    """One run. Times in L/U, y in L, v in U, c as area fraction, overlaps in r."""
+    """One run. Times in L/U, y in L, v in U, c as area fraction, overlaps in r. A run shorter than 1 L/U has no profile yet."""
 
     def __init__(self, path, si):
         super().__init__(path, "channel-phi")
         self.phi = f"{float(self.name):g}"
         times, blocks = self.blocks(".profiles")
-        self.particles = round(blocks[-1][:, 2].sum())
         profiles = [profile(rows, si) for rows in blocks]
-        self.y, self.c, self.v = profiles[-1]
+        if profiles:
+            self.y, self.c, self.v = profiles[-1]
         series = [(c[abs(y) < 0.1].mean() / c.mean(), (c[0] + c[-1]) / 2 / c.mean(),
                    still_layer(v, y[1] - y[0])) for y, c, v in profiles]
-        self.profiles = {"t": times, **dict(zip(("centre", "at_wall", "still_layer"), np.array(series).T))}
+        self.profiles = {"t": times, **dict(zip(("centre", "at_wall", "still_layer"), np.reshape(series, (-1, 3)).T))}
         for name in ("in_aggregates", "wall_in_aggregates"):
-            self.history[name] = self.history[name] / self.particles
+            self.history[name] = self.history[name] / PARTICLES
         self.overlaps = read_overlaps(self, si)
         self.picture = read_picture(self)
 
@@ -97,6 +98,8 @@ def average(run, quantity, end):
     known = t <= end + 1e-6
     recent = known & (t >= 0.8 * end - 1e-6)
     values = values[recent] if any(recent) else values[known][-1:]
+    if len(values) == 0:
+        return np.nan, np.nan
     return values.mean(), values.std(ddof=1) if len(values) > 1 else np.nan
 
 
@@ -199,6 +202,9 @@ def draw_profile(axes, run, words):
 
 def draw_profiles(runs, report, path):
     """Figure 10: area fraction and mean streamwise velocity across the channel."""
+    runs = those_with(runs, lambda run: len(run.profiles["t"]), "profile", path.name)
+    if not runs:
+        return
     figure, axes = plt.subplots(len(runs), 2, figsize=(9, 2.15 * len(runs) + 0.5), sharex=True,
                                 sharey="col", squeeze=False, layout="constrained")
     for row, run in zip(axes, runs):
@@ -248,8 +254,7 @@ def draw_aggregates(runs, report, figure_number, names, tops, path):
     `names` are the three quantities, `tops` the ends of the report's axes.
     """
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.9), layout="constrained")
-    total = runs[0].particles
-    for axis, name, top, scale in zip(axes, names, tops, (total, 1, 1)):
+    for axis, name, top, scale in zip(axes, names, tops, (PARTICLES, 1, 1)):
         for run in runs:
             axis.plot(run.t, scale * run.history[name], linewidth=1.5, **style(run.phi),
                       label=rf"$\phi$ = {run.phi}")
@@ -261,7 +266,7 @@ def draw_aggregates(runs, report, figure_number, names, tops, path):
         axis.set(xlabel="t  [L/U]", title=f"({'abc'[names.index(name)]})", ylim=(0, top),
                  xlim=(0, max(run.t[-1] for run in runs)))
     wall = "wall " if figure_number == "13" else ""
-    axes[0].set_ylabel(rf"$n_P$, particles in {wall}aggregates, of {total}")
+    axes[0].set_ylabel(rf"$n_P$, particles in {wall}aggregates, of {PARTICLES}")
     axes[1].set_ylabel(rf"$N_A$, number of {wall}aggregates")
     axes[2].set_ylabel(rf"$n_{{P/A}}$, particles per {wall}aggregate")
     axes[1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.05), ncols=len(runs), frameon=False,
@@ -271,6 +276,9 @@ def draw_aggregates(runs, report, figure_number, names, tops, path):
 
 def draw_overlaps(runs, stiffness, path):
     """Overlaps of pairs that touch, in particle radii, and the JKR overlap of a pair at rest."""
+    runs = those_with(runs, lambda run: any(run.overlaps[2]), "contact in a histogram", path.name)
+    if not runs:
+        return
     figure, axis = plt.subplots(figsize=(7, 4), layout="constrained")
     end = 0
     for run in runs:
@@ -279,7 +287,7 @@ def draw_overlaps(runs, stiffness, path):
         axis.stairs(share, edges, fill=True, alpha=0.6, color=look["color"],
                     label=rf"$\phi$ = {run.phi}, t = {t:g} L/U")
         axis.axvline(rest, color=look["color"], linewidth=0.9, linestyle=":")
-        end = max(end, rest, edges[np.flatnonzero(share)[-1] + 1] if any(share) else 0)
+        end = max(end, rest, edges[np.flatnonzero(share)[-1] + 1])
     axis.plot([], [], ":", color="0.3", linewidth=0.9,
               label=rf"JKR pair at rest, $\lambda$ = $10^{{{np.log10(stiffness):g}}}$")
     axis.set(yscale="log", ylim=(1e-5, 2), xlim=(0, 1.2 * end), ylabel="share of contacts per bin",
@@ -306,7 +314,7 @@ def main():
     draw_aggregates(runs, report, "13", ["wall_" + name for name in names], (2200, 200, 25),
                     out / "figure13.png")
     draw_overlaps(runs, si["lambda"], out / "overlaps.png")
-    conclude(HERE, values_of(report, runs), [run.cost("8000 particles") for run in runs], out, kept)
+    conclude(HERE, values_of(report, runs), [run.cost(f"{PARTICLES} particles") for run in runs], out, kept)
 
 
 if __name__ == "__main__":

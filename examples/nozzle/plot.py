@@ -15,7 +15,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
 from grids import read_grid
-from report import Ours, Run, arguments, conclude, draw_pictures, read_runs, values_by_run
+from report import Ours, Run, arguments, conclude, draw_pictures, read_runs, those_with, values_by_run
 
 CHANNEL = 5e-4    # width of the channel [m], as in in.nozzle
 LENGTHS = ("0", "0.5", "1")    # of the contraction [widths of the channel]
@@ -143,17 +143,19 @@ def main():
     if by_length:
         draw_particles(by_length, 2, out / "figure15.png")
     draw_history(runs, out / "figure16.png")
-    lengths = [(f"length {length}", [run for run in runs if parts(run)[:2] == (length, 50)],
+    profiled = those_with(runs, lambda run: run.blocks(".profile")[1], "profile", "figure17.png, figure20.png")
+    lengths = [(f"length {length}", [run for run in profiled if parts(run)[:2] == (length, 50)],
                 lambda run: ("walls adhere" if parts(run)[2] else "walls do not adhere") + kind(run))
                for length in LENGTHS]
     lengths = [group for group in lengths if group[1]]
     if lengths:
         draw_profiles(lengths, out / "figure17.png")
     phis = sorted((run for run in runs if parts(run)[0] == "1" and parts(run)[2]), key=lambda run: parts(run)[1])
-    if phis:
-        draw_particles([run for run in phis if run in usual], 1, out / "figure19.png")
-        draw_profiles([("length 1, walls adhere", phis, lambda run: f"phi = {parts(run)[1]:g}")],
-                      out / "figure20.png")
+    pictured, along = ([run for run in phis if run in some] for some in (usual, profiled))
+    if pictured:
+        draw_particles(pictured, 1, out / "figure19.png")
+    if along:
+        draw_profiles([("length 1, walls adhere", along, lambda run: f"phi = {parts(run)[1]:g}")], out / "figure20.png")
     draw_clogs(runs, out)
     costs = [run.cost(f"{run.history['entered'][-1]:.0f} entered, {run.history['left'][-1]:.0f} left")
              for run in runs]

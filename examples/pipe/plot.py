@@ -12,14 +12,14 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
-from report import Run, arguments, conclude, draw_pictures, read_runs, values_by_run
+from report import Run, arguments, conclude, draw_pictures, read_runs, those_with, values_by_run
 
 VARIANTS = {"plain": "drag alone", "nolift": "no lift, no Magnus force", "e09": "e = 0.9", "soft": "lambda = 1.76e4"}    # names -phiPHI-VARIANT
 STEP, VOLUME = 0.00263, np.pi / 6 * 0.04**3    # particle step, volume of a particle; as in in.pipe
 
 
 class Pipe(Run):
-    """One run, with concentration c and velocity v over r at times, and sizes at the end."""
+    """One run, with concentration c and velocity v over r at times (none before 1 L/U), and sizes at the end."""
 
     def __init__(self, path):
         super().__init__(path, "pipe-", 1 / STEP)
@@ -27,7 +27,7 @@ class Pipe(Run):
         phi, *variant = self.name.split("-")
         self.words = ", ".join([f"phi = {phi[3:]}", *(VARIANTS.get(word, word) for word in variant)])
         self.times, blocks = self.blocks(".profiles")
-        self.r = blocks[0][:, 1]
+        self.r = blocks[0][:, 1] if blocks else np.array([])
         self.c = np.array([rows[:, 4] * VOLUME for rows in blocks])
         self.v = np.array([np.where(rows[:, 3] > 0, rows[:, 5], np.nan) for rows in blocks])
         self.size, self.in_size = self.blocks(".sizes")[1][-1][:, 1:3].T
@@ -41,7 +41,9 @@ class Pipe(Run):
 
 
 def values_of(run):
-    """The quantities of report.csv, at the end of the run."""
+    """The quantities of report.csv, at the end of the run; none before its first profile."""
+    if len(run.times) == 0:
+        return {}
     c, v = run.profile(run.times[-1])
     volume = run.r * (run.r[1] - run.r[0])
     if not run.adhesive:
@@ -68,6 +70,9 @@ def draw_profiles(runs, early, path, marks=(), peak=None, still=None):
 
     That is points (r, c), the radius of a peak of c, the radius beyond which particles are at rest.
     """
+    runs = those_with(runs, lambda run: len(run.times), "profile", path.name)
+    if not runs:
+        return
     figure, axes = plt.subplots(1, 2, figsize=(10, 3.8), layout="constrained")
     for k, run in enumerate(runs):
         for t, line in ((early, "--"), (run.times[-1], "-")):
