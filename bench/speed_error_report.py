@@ -155,6 +155,9 @@ def draw_channel_panel(axis, channel):
     rows = [(s, dict(row, rms=100 * row["rms"])) for s, row in channel.rows if "failed" not in row]
     if draw_families(axis, rows, "rms", {"linestyle": "-"}):
         axis.set(xscale="log", yscale="log")
+        for side in (axis.xaxis, axis.yaxis):    # may be less than a decade: 2, 3 and 5 of it, too
+            side.set_major_formatter("{x:g}")
+            side.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "235" else "")
     if rows and "time" in rows[0][1]:
         axis.axvline(rows[0][1]["time"], color="k", linewidth=0.9, linestyle="--",
                      label="single rate at the report's step")
