@@ -17,13 +17,20 @@ inline double largest(const std::vector<double> &values)
   return m;
 }
 
-// tolerance: of the largest of b
+// Rows of some components each, for instance the forces on bodies, beside each other.
+//   scale      of each row, for instance the sum of the magnitudes of what acts on the body; where it
+//              is 0 the two are the same
+//   tolerance  of that
 inline void expect_same(const std::vector<double> &a, const std::vector<double> &b,
-                        double tolerance)
+                        const std::vector<double> &scale, double tolerance)
 {
-  const double scale = largest(b) + 1e-30;
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_FALSE(scale.empty());
+  const size_t components = a.size() / scale.size();
   for (size_t c = 0; c < a.size(); c++)
-    ASSERT_NEAR((a[c] - b[c]) / scale, 0.0, tolerance) << "component " << c;
+    ASSERT_LE(std::fabs(a[c] - b[c]), tolerance * scale[c / components])
+        << a[c] << " and " << b[c] << ", component " << c % components << " of row "
+        << c / components;
 }
 
 }    // namespace apf_test

@@ -145,6 +145,7 @@ namespace {
       const BridgeState<double> state{block.formed[l], block.touching[l]};
       const auto out = bridge_law<Frame, viscous, fitted, tangential>(c, c, in, state, times);
       scatter(bodies, i, j, out);
+      block.gap[l] = out.gap;
       block.ended[l] = out.ended;
       ended += list.ended(k);
     }

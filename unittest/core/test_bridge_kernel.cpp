@@ -88,7 +88,71 @@ struct Crowd {
     for (int b = 0; b < n_bodies; b++) bodies.add_load_to(b, &all[6 * b], &all[6 * b + 3]);
     return all;
   }
+  Vec3 normal(int k) const
+  {
+    double a[3], b[3];
+    bodies.position(list.i[k], a);
+    bodies.position(list.j[k], b);
+    const Vec3 d{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    return (1.0 / std::sqrt(norm2(d))) * d;
+  }
 };
+
+// By each body the sum of the magnitudes of all parts of the forces that its bridges exert, and of
+// their torques. The viscous step finds a change of speed from changes of the gap, and has their
+// rounding: 1e-15 of the force that would close the gap within the step, at a tolerance of 1e-12.
+std::vector<double> magnitudes(Crowd crowd, double dt)
+{
+  std::vector<BridgeParts> parts(crowd.list.size());
+  crowd.evaluate(bridge_kernel(crowd.choice), dt, parts.data());
+  std::vector<double> sum(2 * Crowd::n_bodies);
+  for (int k = 0; k < crowd.list.size(); k++) {
+    if (crowd.list.ended(k)) continue;
+    const auto &p = parts[k];
+    const auto c = crowd.list.constants(k);
+    const double distance = c.radius_sum + p.gap;
+    const double close = std::max(std::fabs(p.gap), c.h_min) *
+        crowd.list.blocks[k / BridgeList::width].mass[k % BridgeList::width] / (dt * dt);
+    const double rounding = crowd.choice.viscous && dt > 0.0 ? 1.0e-3 * close : 0.0;
+    double across = 0.0;
+    for (const double component : p.tangential) across += component * component;
+    across = std::sqrt(across);
+    for (const int body : {crowd.list.i[k], crowd.list.j[k]}) {
+      sum[2 * body] += std::fabs(p.capillary) + std::fabs(p.viscous) + rounding + across;
+      sum[2 * body + 1] += distance * across;
+    }
+  }
+  return sum;
+}
+
+void expect_parts_of_force(const BridgeParts &p, const Vec3 &n)
+{
+  const double size = std::fabs(p.viscous) + std::fabs(p.capillary), along[3] = {n.x, n.y, n.z};
+  double normal = 0.0;
+  for (int c = 0; c < 3; c++) {
+    normal += p.tangential[c] * along[c];
+    EXPECT_NEAR(p.force[c], (p.capillary - p.viscous) * along[c] + p.tangential[c], 1e-12 * size);
+  }
+  EXPECT_NEAR(normal, 0.0, 1e-12 * size);
+}
+
+// what a bridge keeps, and where it is
+void expect_same_bridges(const BridgeList &a, const BridgeList &b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (int k = 0; k < a.size(); k++) {
+    EXPECT_EQ(a.ended(k), b.ended(k)) << k;
+    EXPECT_NEAR(a.gap(k) - b.gap(k), 0.0, 1e-14) << k;
+    EXPECT_EQ(a.memory(k).volume_i, b.memory(k).volume_i) << k;
+    EXPECT_EQ(a.memory(k).volume_j, b.memory(k).volume_j) << k;
+    EXPECT_EQ(a.memory(k).formed, b.memory(k).formed) << k;
+    const auto &u = a.blocks[k / BridgeList::width], &w = b.blocks[k / BridgeList::width];
+    const int l = k % BridgeList::width;
+    for (const auto lanes : {&BridgeList::Block::formed, &BridgeList::Block::b,
+                             &BridgeList::Block::rupture, &BridgeList::Block::mass})
+      EXPECT_EQ((u.*lanes)[l], (w.*lanes)[l]) << k;
+  }
+}
 
 }    // namespace
 
@@ -101,10 +165,11 @@ TEST(BridgeKernel, every_build_agrees_with_the_law_taken_bridge_by_bridge)
           SCOPED_TRACE(testing::Message() << build.name << " sub-models " << submodels
                                           << " bridges " << size << " step " << dt);
           Crowd blocks(size, submodels, 1000 * submodels + size), scalar = blocks;
+          const auto scale = magnitudes(blocks, dt);
           const int ended = blocks.evaluate(build.kernel(blocks.choice), dt);
           EXPECT_EQ(scalar.evaluate(scalar_bridges(scalar.choice), dt), ended);
-          for (int k = 0; k < size; k++) EXPECT_EQ(blocks.list.ended(k), scalar.list.ended(k)) << k;
-          expect_same(blocks.loads(), scalar.loads(), 1e-12);
+          expect_same_bridges(blocks.list, scalar.list);
+          expect_same(blocks.loads(), scalar.loads(), scale, 1e-12);
           if (size > 100) {
             EXPECT_GT(ended, 0);
             EXPECT_LT(ended, size);
@@ -148,37 +213,31 @@ TEST(BridgeKernel, viscous_step_solves_its_equation)
 
 TEST(BridgeKernel, asking_for_parts_changes_nothing_and_they_add_up)
 {
-  for (const int submodels : {7, 7 + PLANAR}) {
-    Crowd quiet(37, submodels, 3), asked = quiet;
-    std::vector<BridgeParts> parts(37);
-    const auto kernel = bridge_kernel(quiet.choice);
-    EXPECT_EQ(asked.evaluate(kernel, 0.01, parts.data()), quiet.evaluate(kernel, 0.01));
-    expect_same(asked.loads(), quiet.loads(), 1e-13);
-    std::vector<double> sum(6 * Crowd::n_bodies);
-    for (int k = 0; k < 37; k++) {
-      const auto &p = parts[k];
-      double a[3], b[3], d[3], distance = 0.0, along = 0.0;
-      asked.bodies.position(asked.list.i[k], a);
-      asked.bodies.position(asked.list.j[k], b);
-      for (int c = 0; c < 3; c++) d[c] = b[c] - a[c];
-      for (const double component : d) distance += component * component;
-      distance = std::sqrt(distance);
-      for (int c = 0; c < 3; c++) {
-        const double n = d[c] / distance;
-        EXPECT_NEAR(p.force[c], (p.capillary - p.viscous) * n + p.tangential[c],
-                    1e-12 * (std::fabs(p.viscous) + std::fabs(p.capillary)));
-        along += p.tangential[c] * n;
-        sum[6 * asked.list.i[k] + c] += p.force[c];
-        sum[6 * asked.list.j[k] + c] -= p.force[c];
+  for (const auto &build : bridge_builds())
+    for (const int submodels : {7, 7 + PLANAR}) {
+      SCOPED_TRACE(testing::Message() << build.name << submodels);
+      Crowd quiet(37, submodels, 3), asked = quiet;
+      const auto scale = magnitudes(quiet, 0.01);
+      std::vector<BridgeParts> parts(37);
+      const auto kernel = build.kernel(quiet.choice);
+      EXPECT_EQ(asked.evaluate(kernel, 0.01, parts.data()), quiet.evaluate(kernel, 0.01));
+      expect_same(asked.loads(), quiet.loads(), scale, 1e-13);
+      expect_same_bridges(asked.list, quiet.list);
+      std::vector<double> sum(6 * Crowd::n_bodies);
+      for (int k = 0; k < 37; k++) {
+        const auto &p = parts[k];
+        expect_parts_of_force(p, asked.normal(k));
+        EXPECT_EQ(p.energy<0.0, p.capillary> 0.0 && p.gap < asked.list.constants(k).rupture);
+        for (int c = 0; c < 3; c++) {
+          sum[6 * asked.list.i[k] + c] += p.force[c];
+          sum[6 * asked.list.j[k] + c] -= p.force[c];
+        }
       }
-      EXPECT_NEAR(along, 0.0, 1e-12 * (std::fabs(p.viscous) + std::fabs(p.capillary)));
-      EXPECT_EQ(p.energy<0.0, p.capillary> 0.0 && p.gap < asked.list.constants(k).rupture);
+      auto forces = asked.loads();
+      for (size_t c = 0; c < forces.size(); c++)
+        if (c % 6 > 2) forces[c] = 0.0;
+      expect_same(sum, forces, scale, 1e-12);
     }
-    auto forces = asked.loads();
-    for (size_t c = 0; c < forces.size(); c++)
-      if (c % 6 > 2) forces[c] = 0.0;
-    expect_same(sum, forces, 1e-12);
-  }
 }
 
 TEST(BridgeList, removal_keeps_the_others)
