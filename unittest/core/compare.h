@@ -18,8 +18,8 @@ inline double largest(const std::vector<double> &values)
 }
 
 // Rows of some components each, for instance the forces on bodies, beside each other.
-//   scale      of each row, for instance the sum of the magnitudes of what acts on the body; where it
-//              is 0 the two are the same
+//   scale      of each row, for instance the sum of the magnitudes of what acts on the body; where
+//              it is 0 the two are the same
 //   tolerance  of that
 inline void expect_same(const std::vector<double> &a, const std::vector<double> &b,
                         const std::vector<double> &scale, double tolerance)
