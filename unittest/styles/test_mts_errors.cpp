@@ -77,7 +77,6 @@ TEST(MtsErrors, what_it_cannot_work_with)
       {start + "fix more all nve/sphere\nrun 0", name, "fix more nve/sphere", "stand still"},
       {start + "fix more all nve/sphere/mts collision 8\nrun 0", name, "nve/sphere/mts"},
       {start + "group one id 1\nfix move one move linear 1 0 0\nrun 0", name, "fix move move"},
-      {start + "fix body all rigid/small molecule\nrun 0", "molecule"},
       {start + "fix body all rigid single\nrun 0", name, "fix body rigid"},
       {start + "pair_style zero 1.0\npair_coeff * *\nrun 0", name, "pair style granular/adhesive",
        "got 0"},
@@ -156,6 +155,26 @@ TEST(MtsErrors, skin_that_is_too_thin_for_the_safety_factor)
   EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
   EXPECT_GT(sim.value("vx[2]"), 20.0) << "struck";
   EXPECT_EQ(sim.error_of("neighbor 0.15 bin\nrun 1"), "");
+}
+
+// ... with what needs a scene of its own
+TEST(MtsErrors, rigid_molecules_and_scaled_pair_styles)
+{
+  const std::vector<std::vector<std::string>> table = {
+      {"fix ids all property/atom mol ghost yes\nset group all mol 1\n" + start +
+           "fix body all rigid/small molecule\nrun 0",
+       name + " cannot work with fix body rigid/small", "stand still"},
+      {"pair_style hybrid/scaled 0.5 granular/adhesive 1.0 zero 1.0\n"
+       "pair_coeff * * granular/adhesive" +
+           jkr + "\npair_coeff * * zero\n" + start + "run 0",
+       name + " cannot work with pair_style hybrid/scaled", "take contact forces unscaled"},
+  };
+  for (const auto &row : table) {
+    Simulation sim;
+    build(sim, {{3.0, 4.0, 4.0}, {5.0, 4.0, 4.0}});
+    SCOPED_TRACE(row[1]);
+    expect_words(sim.error_of(row[0]), {row.begin() + 1, row.end()});
+  }
 }
 
 }    // namespace
