@@ -150,6 +150,21 @@ TEST(Integrators, stiff_spheres)
     for (size_t n = 0; n < e.size(); n++)
       expect_criterion(integrator.of("C6 *: e of softened less e of stiff spheres"),
                        e_soft[n] - e[n], -0.01, 0.01);
+    for (auto *impacts : {&hard, &softened}) {
+      auto apart = [&](double V) {
+        auto at = *impacts;
+        at.speeds = {V * fast.V_s};
+        at.phases = 16;
+        const auto e = at.restitutions(integrator);
+        return std::count_if(e.begin(), e.end(), [](double one) {
+          return one > 0.0;
+        });
+      };
+      expect_criterion(integrator.of("C6 *: pairs of 16 that part at 0.99 V_s, stiff and softened"),
+                       apart(0.99), 0.0, 0.0);
+      expect_criterion(integrator.of("C6 *: pairs of 16 that part at 1.01 V_s, stiff and softened"),
+                       apart(1.01), 16.0, 16.0);
+    }
     hard.speeds = {3.0 * fast.V_s};
     // no touch at the very end of a step: rounding would choose the step, and e change by 1e-5
     hard.phases = 16;

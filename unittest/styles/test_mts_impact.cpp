@@ -204,6 +204,26 @@ TEST(MtsImpact, stiff_spheres_rebound_as_soft_ones)
   }
 }
 
+TEST(MtsImpact, stiff_spheres_stick_at_the_speed_of_soft_ones)
+{
+  const double V_s = sticking_speed({0.25, stiff_E, 0.75});
+  auto soft = stiff("scale_stiffness " + digits(soft_share));
+  soft.reach = 2e-3;
+  for (const auto &setting : {stiff(), soft})
+    for (const double V : {0.99, 1.01}) {
+      const auto e = restitutions(phases(V * V_s, 0.125, 16), setting);
+      const auto apart = std::count_if(e.begin(), e.end(), [](double one) {
+        return one > 0.0;
+      });
+      if (V < 1.0)
+        expect_criterion("C6 mts: pairs of 16 that part at 0.99 V_s, stiff and softened", apart,
+                         0.0, 0.0);
+      else
+        expect_criterion("C6 mts: pairs of 16 that part at 1.01 V_s, stiff and softened", apart,
+                         16.0, 16.0);
+    }
+}
+
 // damped, with all 750 collision steps
 TEST(MtsImpact, far_from_the_origin_nothing_changes)
 {
