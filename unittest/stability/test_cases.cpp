@@ -242,39 +242,43 @@ TEST(Cases, block_in_shear)
 }
 
 // C20: twelve contacts on a particle at the report's step, f3 = 0.1, and damping
+void dense(const Integrator &integrator, double phi, const std::string &modes)
+{
+  const JkrCurve curve{0.25, 1e4, 0.5 * phi};
+  const double h = (1.0 - curve.delta_eq()) / std::sqrt(2.0);
+  Scene scene;
+  scene.box = "0 10 0 10 0 10";
+  scene.style = pair_of(" jkr " + digits(2e4 * (1.0 - 0.09)) + " 0.3 " + digits(curve.gamma) +
+                        " damping alpha 1.018 " + modes);
+  std::vector<Sphere> cluster = {{5.0, 5.0, 5.0}};
+  for (const double a : {-h, h})
+    for (const double b : {-h, h})
+      cluster.insert(cluster.end(),
+                     {{5.0 + a, 5.0 + b, 5.0}, {5.0 + a, 5.0, 5.0 + b}, {5.0, 5.0 + a, 5.0 + b}});
+  Simulation sim;
+  build(sim, cluster, scene);
+  sim.run("compute spin all erotate/sphere\nvariable E equal pe+ke+c_spin\n"
+          "thermo_style custom step pe ke c_spin\nthermo_modify norm no\n"
+          "variable a atom 0.4*(id%3-1)\nvariable b atom 0.4*(id%5-2)\n"
+          "variable c atom 0.4*(id%2-0.5)\nset group all omega v_a v_b v_c\nneighbor 1.0 bin\n" +
+          integrator.commands(2.5e-3) + "run 0");
+  const double start = sim.value("ke+c_spin");
+  double last = sim.value("v_E"), most = -1.0;
+  for (int n = 0; n < 50; n++) {
+    sim.run(integrator.run(100));
+    most = std::max(most, (sim.value("v_E") - last) / start);
+    last = sim.value("v_E");
+  }
+  expect_criterion(integrator.of("C20 *: largest gain of energy in 100 steps, " + modes), most,
+                   -1.0, 1e-6);
+}
+
 TEST(Cases, dense_aggregate)
 {
-  for (const double phi : {1.5, 15.0, 50.0, 150.0})
-    for (const auto &integrator : integrators) {
-      const JkrCurve curve{0.25, 1e4, 0.5 * phi};
-      const double h = (1.0 - curve.delta_eq()) / std::sqrt(2.0);
-      Scene scene;
-      scene.box = "0 10 0 10 0 10";
-      scene.style = pair_of(" jkr " + digits(2e4 * (1.0 - 0.09)) + " 0.3 " + digits(curve.gamma) +
-                            " damping alpha 1.018 sliding 0.3");
-      std::vector<Sphere> cluster = {{5.0, 5.0, 5.0}};
-      for (const double a : {-h, h})
-        for (const double b : {-h, h})
-          cluster.insert(
-              cluster.end(),
-              {{5.0 + a, 5.0 + b, 5.0}, {5.0 + a, 5.0, 5.0 + b}, {5.0, 5.0 + a, 5.0 + b}});
-      Simulation sim;
-      build(sim, cluster, scene);
-      sim.run(
-          "compute spin all erotate/sphere\nvariable E equal pe+ke+c_spin\n"
-          "thermo_style custom step pe ke c_spin\nthermo_modify norm no\n"
-          "variable turn atom 0.4*(id%3-1)\nset group all omega 0 0 v_turn\nneighbor 1.0 bin\n" +
-          integrator.commands(2.5e-3) + "run 0");
-      const double start = sim.value("ke+c_spin");
-      double last = sim.value("v_E"), most = -1.0;
-      for (int n = 0; n < 50; n++) {
-        sim.run(integrator.run(100));
-        most = std::max(most, (sim.value("v_E") - last) / start);
-        last = sim.value("v_E");
-      }
-      expect_criterion(integrator.of("C20 *: largest gain of energy in 100 steps"), most, -1.0,
-                       1e-6);
-    }
+  for (const std::string modes : {"sliding 0.3", "sliding 0.3 twisting yes rolling 0.01 0.1",
+                                  "sliding 0.3 twisting yes rolling 0.01"})
+    for (const double phi : {1.5, 15.0, 50.0, 150.0})
+      for (const auto &integrator : integrators) dense(integrator, phi, modes);
 }
 
 // C21: viscosity stops spheres at a gap, from the law of logarithms with the bridge's finite volume

@@ -62,30 +62,49 @@ std::vector<Sphere> fcc_cluster(double spacing)
   return spheres;
 }
 
+// turn: commands that make the spheres turn
+void expect_loss(double phi, const std::string &modes, const std::string &turn)
+{
+  const JkrCurve curve{0.25, 1e4, 0.5 * phi};
+  Scene scene;
+  scene.box = "0 10 0 10 0 10";
+  scene.style = "pair_style granular/adhesive\npair_coeff * * jkr " + digits(2e4 * (1.0 - 0.09)) +
+      " 0.3 " + digits(curve.gamma) + " damping alpha 1.018 " + modes + "\n";
+  Simulation sim;
+  build(sim, fcc_cluster(1.0 - curve.delta_eq()), scene);
+  sim.run(mts(40, 2.5e-3) + count_energy + turn +
+          "compute parts all pair granular/adhesive\n"
+          "thermo_style custom step pe ke c_spin f_nve[3] c_parts[3] c_parts[4]\n"
+          "thermo_modify norm no\nrun 0");
+  const bool turns = modes.find("rolling") != std::string::npos;
+  const double start = sim.value("ke+c_spin"), bottom = sim.value("pe");
+  double last = sim.value("v_E"), most = -1.0, rolled = 0.0, twisted = 0.0;
+  for (int n = 0; n < 20; n++) {
+    sim.run("run 1");
+    rolled = std::max(rolled, sim.value("c_parts[3]"));
+    twisted = std::max(twisted, sim.value("c_parts[4]"));
+    most = std::max(most, (sim.value("v_E") - last) / start);
+    last = sim.value("v_E");
+  }
+  sim.run("run 750");
+  EXPECT_EQ(rolled / start > 1e-6, turns) << phi;
+  EXPECT_EQ(twisted / start > 1e-6, turns) << phi;
+  expect_criterion("C20 mts: largest gain of energy in a particle step, " + modes, most, -1.0,
+                   1e-6);
+  EXPECT_LT(sim.value("v_E"), bottom + start) << phi;
+  EXPECT_LT(sim.value("ke"), start) << phi;
+  EXPECT_EQ(sim.value("f_nve[3]"), 36.0) << phi;
+}
+
 TEST(MtsEnergy, twelve_contacts_on_a_particle_lose_energy_only)
 {
+  const std::string about_z = "variable turn atom 0.4*(id%3-1)\nset group all omega 0 0 v_turn\n",
+                    about_all = "variable a atom 0.4*(id%3-1)\nvariable b atom 0.4*(id%5-2)\n"
+                                "variable c atom 0.4*(id%2-0.5)\nset group all omega v_a v_b v_c\n";
   for (const double phi : {1.5, 15.0, 50.0, 150.0}) {
-    const JkrCurve curve{0.25, 1e4, 0.5 * phi};
-    Scene scene;
-    scene.box = "0 10 0 10 0 10";
-    scene.style = "pair_style granular/adhesive\npair_coeff * * jkr " + digits(2e4 * (1.0 - 0.09)) +
-        " 0.3 " + digits(curve.gamma) + " damping alpha 1.018 sliding 0.3\n";
-    Simulation sim;
-    build(sim, fcc_cluster(1.0 - curve.delta_eq()), scene);
-    sim.run(mts(40, 2.5e-3) + count_energy +
-            "variable turn atom 0.4*(id%3-1)\nset group all omega 0 0 v_turn\nrun 0");
-    const double start = sim.value("ke+c_spin"), bottom = sim.value("pe");
-    double last = sim.value("v_E"), most = -1.0;
-    for (int n = 0; n < 20; n++) {
-      sim.run("run 1");
-      most = std::max(most, (sim.value("v_E") - last) / start);
-      last = sim.value("v_E");
-    }
-    sim.run("run 750");
-    expect_criterion("C20 mts: largest gain of energy in a particle step", most, -1.0, 1e-6);
-    EXPECT_LT(sim.value("v_E"), bottom + start) << phi;
-    EXPECT_LT(sim.value("ke"), start) << phi;
-    EXPECT_EQ(sim.value("f_nve[3]"), 36.0) << phi;
+    expect_loss(phi, "sliding 0.3", about_z);
+    expect_loss(phi, "sliding 0.3 twisting yes rolling 0.01 0.1", about_all);
+    expect_loss(phi, "sliding 0.3 twisting yes rolling 0.01", about_all);
   }
 }
 
