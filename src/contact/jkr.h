@@ -51,6 +51,13 @@ struct JKR {
   double overlap(double s) const { return R * s * (s * s * s - 4.0 * neck3()); }
   double force(double s) const { return K * s * s * s * (s * s * s - 6.0 * neck3()); }
 
+  // d(force)/d(overlap); has a pole at the end of the neck, s = m
+  double stiffness(double s) const
+  {
+    const double s3 = s * s * s, m3 = neck3();
+    return 1.5 * K / R * s * s * (s3 - 3.0 * m3) / (s3 - m3);
+  }
+
   // integral of force over overlap from the (virtual) state a = 0; only differences have a meaning
   APF_INLINE double energy(double s) const
   {
