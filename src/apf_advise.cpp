@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_flow_field.h"
@@ -198,11 +199,11 @@ void APFAdvise::advise_contact(const std::string &name, const ContactCoeff &coef
                   contact.rest.frequency, contact.rest.name(),
                   scene.collision_step(2.0 * r, rho, E), contact.collision_step));
   finest = finest > 0.0 ? std::min(finest, contact.collision_step) : contact.collision_step;
-  constexpr double much = 0.05;
-  if (std::max(contact.rest_overlap, contact.impact_overlap) > much * r)
+  if (std::max(contact.rest_overlap, contact.impact_overlap) > much_overlap * r)
     cures.push_back(fmt::format("contact {}: overlap is {:.3g} of the radius at rest and {:.3g} in "
                                 "an impact at U; above {} take a larger E or scale_stiffness",
-                                name, contact.rest_overlap / r, contact.impact_overlap / r, much));
+                                name, contact.rest_overlap / r, contact.impact_overlap / r,
+                                much_overlap));
 }
 
 /* ----------------------------------------------------------------------

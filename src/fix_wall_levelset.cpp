@@ -156,19 +156,16 @@ void FixWallLevelset::check_particles()
                  command, id, sizes.largest_radius(), surface.radius);
   if (grid) check_grid(r, sizes.largest_radius());
   check_reach(r);
+  const apf::WetContact wet_contact{coefficient.bridge, coefficient.model};
   std::set<double> contact_radii;    // one message for all surfaces of the same
   for (const auto &surface : surfaces) {
     const auto bodies = bodies_at(surface, r, m);
     if (!contact_radii.insert(bodies.R).second) continue;
-    if (coefficient.model.adhesive())
-      overlap_at_rest =
-          std::max(overlap_at_rest, coefficient.model.normal(bodies.R).equilibrium_overlap() / r);
-    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model,
-                  coefficient.bridge, bodies.R, r);
+    overlap_at_rest = std::max(overlap_at_rest, apf::overlap_at_rest(wet_contact, bodies.R) / r);
+    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), wet_contact, bodies.R, r);
     if (step_is_given() && m > 0.0)    // LAMMPS's own inserters do not tell the mass
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
-                     apf::stiffest_mode({coefficient.bridge, coefficient.model}, bodies, r),
-                     step_of_level());
+                     apf::stiffest_mode(wet_contact, bodies, r), step_of_level());
   }
 }
 
