@@ -1,5 +1,6 @@
 #include "apf_advise.h"
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "comm.h"
 #include "contact_checks.h"
@@ -55,6 +56,7 @@ void APFAdvise::command(int narg, char **arg)
 
 void APFAdvise::parse(int narg, char **arg)
 {
+  const ArgumentReader reader(lmp, "Command apf_advise", arg);
   GivenOnce given(lmp, "Command apf_advise");
   for (int iarg = 0; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
@@ -62,9 +64,7 @@ void APFAdvise::parse(int narg, char **arg)
     if (word != "speed" && word != "length")
       error->all(FLERR, iarg, "Command apf_advise keyword must be speed or length, got {}", word);
     if (iarg + 1 == narg) utils::missing_cmd_args(FLERR, "apf_advise " + word, error);
-    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    if (!(value > 0.0))
-      error->all(FLERR, iarg + 1, "Command apf_advise {} must be > 0, got {}", word, arg[iarg + 1]);
+    const double value = reader.number(iarg + 1, word, Range::above(0.0));
     (word == "speed" ? scene.U : scene.L) = value;
     (word == "speed" ? speed_given : length_given) = true;
   }

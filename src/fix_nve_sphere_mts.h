@@ -104,6 +104,7 @@ class FixNVESphereMTS : public Fix {
   double kappa_now = 0.0;
   double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 
+  void parse(int, char **);
   void find_slow_largest();
   void choose_steps();
   apf::Slow slow_of(int i, bool all = false) const;

@@ -1,5 +1,6 @@
 #include "fix_wall_levelset.h"
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "comm.h"
 #include "compute_aggregate_contact.h"
@@ -80,9 +81,8 @@ void FixWallLevelset::parse_keywords(const std::vector<std::string> &names, int 
       motion.parse(command, narg, arg, iarg);
     } else if (strcmp(arg[iarg], "resolution") == 0) {
       if (narg < iarg + 2) utils::missing_cmd_args(FLERR, "fix wall/levelset resolution", error);
-      resolution = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-      if (!(resolution > 0.0))
-        error->all(FLERR, iarg + 1, "{} resolution must be > 0, got {}", command, arg[iarg + 1]);
+      resolution =
+          ArgumentReader(lmp, command, arg).number(iarg + 1, "resolution", Range::above(0.0));
       if (!grid) error->all(FLERR, iarg, "{} resolution is for walls from a file", command);
       iarg += 2;
     } else if (strcmp(arg[iarg], "film") == 0) {
