@@ -1,5 +1,5 @@
-// Words that are no numbers, numbers out of range and words that are none of a few: all commands say
-// so in the same words, with argument, range and value, and point at the word.
+// Words that are no numbers, numbers out of range and words that are none of a few: all commands
+// say so in the same words, with argument, range and value, and point at the word.
 
 #include "points_at.h"
 #include "simulation.h"

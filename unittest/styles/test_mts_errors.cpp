@@ -129,8 +129,8 @@ TEST(MtsErrors, summary_at_the_end_of_a_run)
                {"sub-stepped 0.0 % of the particles; no contacts; contacts found late 0"});
 }
 
-// A pair at rest: sqrt(3.5 k_T/m) with k_T = 8 G a0 is its highest frequency, and the step N-th part
-// of the timestep.
+// A pair at rest: sqrt(3.5 k_T/m) with k_T = 8 G a0 is its highest frequency, and the step is the
+// N-th part of the timestep.
 TEST(MtsErrors, summary_tells_what_a_number_of_steps_is_worth)
 {
   const Material material;
