@@ -42,6 +42,15 @@ struct JKR {
   {
     return equilibrium_radius() * equilibrium_radius() / (3.0 * R);
   }
+  // Overlap at which the force balances a load: > 0 presses the bodies together, < 0 pulls them
+  // apart, down to -F_C. force = load of eq (39) is quadratic in s^3,
+  //   s^3 = 3 m^3 + sqrt(9 m^6 + load/K),
+  // with the sign of the branch that a load-controlled contact can be on.
+  double overlap_under(double load) const
+  {
+    const double half = 3.0 * neck3();
+    return overlap(std::cbrt(half + std::sqrt(std::max(half * half + load / K, 0.0))));
+  }
 
   // Of the solver below: neck, or a length that is nothing beside any s; and 1 / (R unit^4).
   double root_unit() const { return std::max(neck, 1.0e-20); }
