@@ -169,11 +169,6 @@ def case_lines(samples):
     return lines
 
 
-def verdict(what, value, target, good):
-    """One line: measured, target."""
-    return f"{what:<58}{value:>8}   target {target:<18}{'reached' if good else 'missed'}"
-
-
 def cost_lines(samples, sizes):
     """Cost of the largest cloud relative to the smallest, on one rank."""
     lines = []
