@@ -16,20 +16,33 @@
 namespace apf_bench {
 
 constexpr int particles = 7980;
-constexpr int n_compositions = 5;
-constexpr const char *compositions[n_compositions] = {"normal", "damping", "sliding", "twisting",
-                                                      "rolling"};
 
-// The first sub-models in the order of the names; the channel of examples/channel at phi = 50, in SI.
-inline apf::ContactModel model_with(int composition)
+// Sub-models of all contacts of a scene; with adhesion by the name of the one that was added last.
+// Without it there is no rolling: hertz-all has all others.
+struct Composition {
+  const char *name;
+  bool adhesion, damping, sliding, twisting, rolling;
+};
+constexpr Composition all_sub_models = {"rolling", true, true, true, true, true};
+constexpr Composition compositions[] = {{"normal", true, false, false, false, false},
+                                        {"damping", true, true, false, false, false},
+                                        {"sliding", true, true, true, false, false},
+                                        {"twisting", true, true, true, true, false},
+                                        all_sub_models,
+                                        {"hertz", false, false, false, false, false},
+                                        {"hertz-all", false, true, true, true, false}};
+
+// The channel of examples/channel at phi = 50, in SI.
+inline apf::ContactModel model_with(const Composition &composition)
 {
   const double d = 1.0e-5, rho = 2600.0, U = 0.5, phi = 50.0, E = 1.0e4 * rho * U * U;
   apf::ContactModel model;
-  model.surface = {E, 0.5 * E * (1.0 - 0.3) / (2.0 - 0.3), phi * rho * U * U * d / 2.0};
-  model.alpha = composition >= 1 ? 1.018 : 0.0;
-  model.mu = composition >= 2 ? 0.3 : 0.0;
-  model.twisting = composition >= 3;
-  model.theta_crit = composition >= 4 ? 0.01 : 0.0;
+  model.surface = {E, 0.5 * E * (1.0 - 0.3) / (2.0 - 0.3),
+                   composition.adhesion ? phi * rho * U * U * d / 2.0 : 0.0};
+  model.alpha = composition.damping ? 1.018 : 0.0;
+  model.mu = composition.sliding ? 0.3 : 0.0;
+  model.twisting = composition.twisting;
+  model.theta_crit = composition.rolling ? 0.01 : 0.0;
   return model;
 }
 
@@ -39,14 +52,16 @@ struct Flakes {
   apf::KernelChoice choice;
   apf::ContactTimes times{5.0e-8, 2.5e-8, 5.0e-8};
 
-  // radii spread by `spread` (0: all the same, one kind of contact)
-  Flakes(bool planar, int composition, double spread = 0.0) : bodies(planar)
+  // radii spread by `spread` (0: all the same, one kind of contact); bodies are where adhesion holds
+  // them, also where there is none: the kernel does not move them
+  Flakes(bool planar, const Composition &composition, double spread = 0.0) : bodies(planar)
   {
     const apf::ContactModel model = model_with(composition);
     choice.planar = planar;
     choice.include(model);
     const double radius = 5.0e-6, R = 0.5 * radius, rho = 2600.0;
-    const double delta = std::pow(model.normal(R).equilibrium_radius(), 2) / (3.0 * R);
+    const double at_rest = model_with(all_sub_models).normal(R).equilibrium_radius();
+    const double delta = std::pow(at_rest, 2) / (3.0 * R);
     const double spacing = 2.0 * radius - delta;
 
     std::mt19937 random(1);

@@ -16,7 +16,7 @@ using namespace apf_bench;
 namespace {
 
 void pass(benchmark::State &state, ContactKernel (*kernel_of)(const KernelChoice &), bool planar,
-          int composition, double spread)
+          const Composition &composition, double spread)
 {
   Flakes flakes(planar, composition, spread);
   const ContactKernel kernel = kernel_of(flakes.choice);
@@ -30,14 +30,14 @@ void pass(benchmark::State &state, ContactKernel (*kernel_of)(const KernelChoice
 void pass_bridges(benchmark::State &state, BridgeKernel (*kernel_of)(const BridgeChoice &),
                   bool planar, const std::string &what)
 {
-  Flakes flakes(planar, n_compositions - 1);
+  Flakes flakes(planar, all_sub_models);
   BridgeModel liquid;
   liquid.volume_ratio = 0.01;
   liquid.sigma = 0.072;
   liquid.mu = 1.0e-3;
   liquid.capillary = what == "willett" ? Capillary::willett : Capillary::maugis;
   liquid.tangential = what == "tangential";
-  const ContactModel dry = model_with(n_compositions - 1);
+  const ContactModel dry = model_with(all_sub_models);
   const double r = 5.0e-6, m = 4.0 / 3.0 * pi * r * r * r * 2600.0;
   const auto bodies = ContactBodies::pair(r, r, 0.5 * m, 0.2 * m * r * r);
   BridgeList bridges;
@@ -63,12 +63,12 @@ int main(int argc, char **argv)
   std::vector<KernelBuild> builds = kernel_builds();
   builds.insert(builds.begin(), {"scalar", apf_test::scalar_kernel});
   for (const bool planar : {true, false})
-    for (int composition = 0; composition < n_compositions; composition++) {
-      const std::string name = compositions[composition];
+    for (const auto &composition : compositions) {
+      const std::string name = composition.name;
       if (planar && name == "twisting") continue;    // there is none in the plane
       for (const auto &build : builds)
         for (const double spread : {0.0, 0.1}) {
-          if (spread > 0.0 && composition + 1 < n_compositions) continue;
+          if (spread > 0.0 && !composition.rolling) continue;
           const std::string title = std::string(planar ? "2D/" : "3D/") + name +
               (spread > 0.0 ? "/polydisperse/" : "/") + build.name;
           benchmark::RegisterBenchmark(title.c_str(), pass, build.kernel, planar, composition,

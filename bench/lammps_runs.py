@@ -47,6 +47,11 @@ def prose(text):
     return textwrap.wrap(" ".join(text.split()), 100)
 
 
+def verdict(what, value, target, good):
+    """One line: measured, target."""
+    return f"{what:<58}{value:>8}   target {target:<18}{'reached' if good else 'missed'}"
+
+
 class Failure(Exception):
     """A run of LAMMPS that ended with an error."""
 

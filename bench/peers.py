@@ -23,10 +23,13 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-HERE = Path(__file__).resolve().parent
+from bars import COLOURS, Spread, draw_bars, mark
+from lammps_runs import HERE, processor, stop, verdict
+
 PARTICLES = 7980
 WARM = 100    # steps before the clock starts, for caches and pages
-COLOURS = {2: "#0072B2", 3: "#E69F00"}
+OURS, STOCK = "APF", "LAMMPS granular"
+TARGETS = {2: (14.0, 22.0), 3: (8.0, 40.0)}    # by dimension: stock's time / ours, ours in ns
 
 # examples/channel/in.channel at phi = 50, in SI
 D, RHO, U, PHI, LAMBDA = 1e-5, 2600.0, 0.5, 50, 1e4
@@ -48,11 +51,6 @@ MODES = {
     "twisting": "twisting yes",
     "rolling": f"rolling {THETA}",
 }
-
-
-def stop(reason):
-    """Ends with exit code 1 and a message."""
-    sys.exit(f"peers.py: {reason}")
 
 
 # ---------------------------------------------------------------------- scene
@@ -231,8 +229,8 @@ def engine_cases(lmp, liggghts):
     """All modes: ours first, then the peers that are installed."""
     cases = []
     for dim in (2, 3):
-        cases.append(Case("APF", lmp, "in.flakes.apf", dim, words_of(modes_of(dim))))
-        cases.append(Case("LAMMPS granular", lmp, "in.flakes.granular", dim,
+        cases.append(Case(OURS, lmp, "in.flakes.apf", dim, words_of(modes_of(dim))))
+        cases.append(Case(STOCK, lmp, "in.flakes.granular", dim,
                           "damping viscoelastic"))
         if liggghts:
             cases.append(Case("LIGGGHTS", liggghts, "in.flakes.liggghts", dim,
@@ -248,17 +246,24 @@ def median_and_range(values):
     return np.median(values), f"{min(values):.1f} .. {max(values):.1f}"
 
 
+def ratios(samples):
+    """Pair time / ours of the same round, of each round, by case."""
+    ours = {case.dim: rows for case, rows in samples.items() if case.name == OURS}
+    return {case: [a.pair / b.pair for a, b in zip(rows, ours[case.dim])]
+            for case, rows in samples.items()}
+
+
 def engine_table(samples):
     """Lines of the table of engines."""
+    beside = ratios(samples)
     lines = [f"{'engine':<18}{'dim':>4}{'contacts':>10}{'pair':>9}{'smallest .. largest':>22}"
              f"{'ratio':>8}{'smallest .. largest':>22}{'step':>9}{'ke':>9}"]
     for case, rows in samples.items():
-        ours = next(other for c, other in samples.items() if c.dim == case.dim)
         pair, spread = median_and_range([row.pair for row in rows])
-        ratio, ratios = median_and_range([a.pair / b.pair for a, b in zip(rows, ours)])
+        ratio, ratio_spread = median_and_range(beside[case])
         step = np.median([row.step for row in rows])
         lines.append(f"{case.name:<18}{case.dim:>4}{rows[0].contacts[0]:>10}{pair:>9.1f}"
-                     f"{spread:>22}{ratio:>8.1f}{ratios:>22}{step:>9.1f}"
+                     f"{spread:>22}{ratio:>8.1f}{ratio_spread:>22}{step:>9.1f}"
                      f"{rows[0].ke_share:>9.4f}")
     return lines
 
@@ -277,6 +282,21 @@ def sub_model_table(samples):
     return lines
 
 
+def verdicts(samples):
+    """Lines: what was wanted of all modes, and whether it is there."""
+    lines = []
+    for case, values in ratios(samples).items():
+        ratio, time = np.median(values), np.median([row.pair for row in samples[case]])
+        times_stock, most = TARGETS[case.dim]
+        if case.name == OURS:
+            lines.append(verdict(f"{case.dim}-D: {OURS}, ns per contact and step", f"{time:.1f}",
+                                 f"<= {most:g} ns", time <= most))
+        if case.name == STOCK:
+            lines.append(verdict(f"{case.dim}-D: {STOCK} / {OURS}", f"{ratio:.1f}",
+                                 f">= {times_stock:g}", ratio >= times_stock))
+    return lines
+
+
 def broken_contacts(samples):
     """A line for every case whose contacts did not all last."""
     lines = []
@@ -286,12 +306,6 @@ def broken_contacts(samples):
             lines.append(f"warning: {case.name}, {case.dim}-D: {first} contacts at the first step, "
                          f"{last} at the last")
     return lines
-
-
-def processor():
-    """Name of the processor."""
-    found = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
-    return found[1] if found else "unknown processor"
 
 
 def version(program):
@@ -312,37 +326,65 @@ def report(args, lmp, liggghts, engines, parts):
              *engine_table(engines),
              "",
              *sub_model_table(parts),
+             "",
+             *verdicts(engines),
              *broken_contacts(engines), *broken_contacts(parts)]
     return "\n".join(lines) + "\n"
 
 
+def by_dimension(values):
+    """Spreads by dimension and name, of values by case, and all names in the order of space."""
+    series = {f"{dim}-D": {case.name: Spread.of(v) for case, v in values.items() if case.dim == dim}
+              for dim in (2, 3)}
+    return series, list(series["3-D"])
+
+
+def pair_times(samples):
+    """Pair times of all runs by case."""
+    return {case: [row.pair for row in rows] for case, rows in samples.items()}
+
+
+def draw_engines(axis, engines):
+    """Times of all engines."""
+    series, names = by_dimension(pair_times(engines))
+    draw_bars(axis, names, series)
+    axis.set(title="all modes; median, smallest, largest",
+             ylabel="pair time per contact and step [ns]")
+
+
+def draw_ratios(axis, engines):
+    """Times of the peers over ours, with what was wanted."""
+    peers = {case: values for case, values in ratios(engines).items() if case.name != OURS}
+    series, names = by_dimension(peers)
+    draw_bars(axis, names, series, digits=1)
+    wanted = {(f"{dim}-D", STOCK): ratio for dim, (ratio, _) in TARGETS.items()}
+    mark(axis, names, series, wanted, color="k", linestyle="--",
+         label="target: " + ", ".join(f"{dim}-D {r:g}" for dim, (r, _) in TARGETS.items()))
+    axis.set(title="times as long as ours", ylabel="pair time / ours of the same round")
+
+
+def draw_parts(axis, parts):
+    """Our sub-models, with what was wanted of all of them."""
+    series, names = by_dimension(pair_times(parts))
+    draw_bars(axis, names, series)
+    for dim, (_, most) in TARGETS.items():
+        axis.axhline(most, color=COLOURS[f"{dim}-D"], linestyle="--",
+                     label=f"target: {dim}-D {most:g} ns")
+    axis.set(title="APF, one sub-model after another",
+             ylabel="pair time per contact and step [ns]")
+
+
 def draw(engines, parts, path):
-    """Bars of the engines and of our sub-models, with whiskers from smallest to largest."""
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=[3, 4])
-    for axis, samples, title in ((axes[0], engines, "all modes; median, smallest, largest"),
-                                 (axes[1], parts, "APF, one sub-model after another")):
-        draw_bars(axis, samples)
-        axis.set_title(title)
-        axis.set_ylabel("pair time per contact and step [ns]")
-        axis.legend(frameon=False)
+    """Engines, ratios and our sub-models side by side."""
+    figure, axes = plt.subplots(1, 3, figsize=(15, 4.4), width_ratios=[3, 2, 4])
+    draw_engines(axes[0], engines)
+    draw_ratios(axes[1], engines)
+    draw_parts(axes[2], parts)
+    for axis in axes:
+        axis.margins(y=0.25)    # room for the legend
+        axis.legend(frameon=False, fontsize=8, ncol=2, loc="upper left")
     figure.tight_layout()
     figure.savefig(path, dpi=120)
-
-
-def draw_bars(axis, samples):
-    """One group of bars for each name, one colour for each dimension."""
-    names = list(dict.fromkeys(case.name for case in sorted(samples, key=lambda c: -c.dim)))
-    for dim in (2, 3):
-        rows = {case.name: [s.pair for s in r] for case, r in samples.items() if case.dim == dim}
-        at = np.array([names.index(name) for name in rows]) + 0.4 * (dim - 2.5)
-        middle = np.array([np.median(values) for values in rows.values()])
-        low = middle - [min(values) for values in rows.values()]
-        high = [max(values) for values in rows.values()] - middle
-        bars = axis.bar(at, middle, 0.38, yerr=(low, high), capsize=3, color=COLOURS[dim],
-                        label=f"{dim}-D")
-        axis.bar_label(bars, fmt="%.0f", padding=2)
-    axis.set_xticks(range(len(names)), names)
-    axis.spines[["top", "right"]].set_visible(False)
 
 
 # ---------------------------------------------------------------------- main

@@ -2,13 +2,15 @@
 """What the loop of the contact kernel has to do for a contact, beside the time that it takes.
 
     roofline.py [--measure | --times FILE] [--clock GHZ] [--results DIR] BENCH_KERNEL
+    roofline.py --draw [--results DIR]
 
 Disassembles the program bench_kernel and counts, for each composition of sub-models, dimension and
 instruction set, instructions, vector arithmetic, shuffles, loads, stores, divisions, roots and
 estimates per contact; from these the cycles that a Golden Cove core (Sapphire Rapids) needs at
 least. --measure runs the program, two minutes; --times takes what it wrote, with
---benchmark_format=json. With either the table is also written to results/kernel.txt. Needs objdump
-of Debian's binutils. kernel.md says more.
+--benchmark_format=json. With either the table is also written to results/kernel.txt, with a plot in
+results/kernel.png; --draw makes the plot anew from the table that is there. Needs objdump of
+Debian's binutils, and python3-matplotlib for the plot. kernel.md says more.
 """
 import argparse
 import json
@@ -22,7 +24,7 @@ from lammps_runs import HERE, processor, prose, stop
 SETS = ("baseline", "avx2", "avx512")
 # names in bench_kernel: adhesion, sliding, twisting, rolling of the kernel. Damping is no choice.
 COMPOSITIONS = {"normal": "1000", "damping": "1000", "sliding": "1100", "twisting": "1110",
-                "rolling": "1111"}
+                "rolling": "1111", "hertz": "0000", "hertz-all": "0110"}
 
 # ---- what a Golden Cove core can do in a cycle
 # [O]: machine model osaca/data/spr.yml of OSACA (github.com/RRZE-HPC/OSACA), from uops.info and
@@ -160,13 +162,13 @@ def bounds(n, isa):
 
 # ---- measurements and the table
 
-def measured(text):
-    """Median [ns] and coefficient of variation per contact by name, from JSON of bench_kernel."""
+def measured(text, unit="per_contact"):
+    """Median [ns] and coefficient of variation of a unit by name, from JSON of a benchmark."""
     times = {}
     for row in json.loads(text)["benchmarks"]:
         if row.get("aggregate_name") in ("median", "cv"):
             name = row["run_name"].split("/min_time")[0]
-            times.setdefault(name, {})[row["aggregate_name"]] = row["per_contact"]
+            times.setdefault(name, {})[row["aggregate_name"]] = row[unit]
     return {name: (1e9 * row["median"], row["cv"]) for name, row in times.items()}
 
 
@@ -174,6 +176,12 @@ COUNTS = ("instructions", ("arithmetic", 512), ("arithmetic", 256), ("arithmetic
           "loads", "stores", "divisions", "roots", "estimates")
 ORDER = ["2D", "3D", *COMPOSITIONS, "scalar", *SETS, "polydisperse", "bridges", "maugis", "willett",
          "tangential"]
+# groups of bars in the plot, by name without dimension and instruction set
+GROUPS = {"normal": "normal", "damping": "+ damping", "sliding": "+ sliding",
+          "twisting": "+ twisting", "rolling": "+ rolling\n= all", "rolling/polydisperse":
+          "all, radii\ndiffer", "hertz": "Hertz", "hertz-all": "Hertz, all",
+          "bridges/maugis": "bridge,\nmaugis", "bridges/willett": "bridge,\nwillett",
+          "bridges/tangential": "bridge,\ntangential"}
 WORDS = "instr 512 256 128 shuf load store div root est issue load store ports div".split()
 HEAD = [f"{'':34s}{'per contact':60s}{'cycles at least':29s}{'bound':>7s}{'time':>8s}",
         f"{'':33s}" + "".join(f"{word:>6s}" for word in WORDS) +
@@ -201,6 +209,49 @@ def line(name, functions, times, clock):
     return row.rstrip()
 
 
+def read_table(text):
+    """(bound, None where there is none; median; coefficient of variation) by name, of kernel.txt."""
+    found = {}
+    for row in text.splitlines():
+        words = row[130:].split()
+        if re.match("[23]D/", row) and words:
+            bound = row[123:130].strip()
+            found[row.split()[0]] = (float(bound) if bound else None, float(words[0]),
+                                     0.01 * float(words[1]))
+    return found
+
+
+def draw_dimension(axis, rows, dims):
+    """Bars of all instruction sets, and the bounds across them."""
+    from bars import Spread, draw_bars, mark    # counts alone need no matplotlib
+    wanted = {isa: {group: rows[name] for group in GROUPS
+                    if (name := f"{dims}/{group}/{isa}") in rows} for isa in SETS}
+    names = [group for group in GROUPS if any(group in bars for bars in wanted.values())]
+    series = {isa: {group: Spread.around(*row[1:]) for group, row in bars.items()}
+              for isa, bars in wanted.items()}
+    draw_bars(axis, names, series)
+    mark(axis, names, series, {(isa, group): row[0] for isa, bars in wanted.items()
+                               for group, row in bars.items() if row[0]},
+         color="k", label="bound: the loop takes at least")
+    axis.set_xticks(range(len(names)), [GROUPS[name] for name in names])
+    axis.set_ylabel(f"{dims[0]}-D: ns per contact, or bridge")
+
+
+def draw(text, path):
+    """Plot of a table, plane above space."""
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    clock = re.search(r"clock (\S+) GHz", text)[1]
+    figure, axes = plt.subplots(2, 1, figsize=(11, 7.5))
+    for axis, dims in zip(axes, ("2D", "3D")):
+        draw_dimension(axis, read_table(text), dims)
+    axes[0].set_title(f"contact kernel alone: median, coefficient of variation; bound at {clock} GHz")
+    axes[0].legend(frameon=False, ncol=4, fontsize=8)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+
+
 def output(*command):
     """What a program prints."""
     try:
@@ -210,35 +261,52 @@ def output(*command):
         stop(error)
 
 
-def main():
+def arguments():
+    """Command line; args.program is there unless it is not needed."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program", type=Path, metavar="BENCH_KERNEL")
+    parser.add_argument("program", type=Path, nargs="?", metavar="BENCH_KERNEL")
     source = parser.add_mutually_exclusive_group()
     source.add_argument("--measure", action="store_true", help="run the program, two minutes")
     source.add_argument("--times", type=Path, help="its output with --benchmark_format=json")
+    source.add_argument("--draw", action="store_true", help="kernel.png anew from kernel.txt")
     parser.add_argument("--clock", type=float, metavar="GHZ", help="default: that of /proc/cpuinfo")
     parser.add_argument("--results", type=Path, default=HERE / "results", metavar="DIR")
     args = parser.parse_args()
-    if not args.program.is_file():
-        stop(f"{args.program}: not there; a build with -D APF_BENCH=on has bench_kernel")
+    if args.draw:
+        return args
+    if not args.program or not args.program.is_file():
+        stop(f"{args.program or 'BENCH_KERNEL'}: not there; a build with -D APF_BENCH=on has "
+             "bench_kernel")
+    return args
+
+
+def find_clock(args):
+    """The clock in GHz, and who says so."""
     known = re.findall(r"^cpu MHz\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
     clock = args.clock if args.clock is not None else max(map(float, known), default=0.0) / 1000.0
     if not clock > 0.0:
         stop(f"the clock is {clock} GHz, must be > 0; --clock GHZ gives it")
+    return clock, "as told" if args.clock else ("of /proc/cpuinfo, which in a virtual machine need "
+                                                "not be the core's")
+
+
+def find_times(args):
+    """Median and coefficient of variation by name; nothing where only counts are wanted."""
+    if args.measure:
+        return measured(output(args.program, "--benchmark_format=json",
+                               "--benchmark_enable_random_interleaving=true"))
+    return measured(args.times.read_text()) if args.times else {}
+
+
+def report(args, times):
+    """The text that is printed and written."""
+    clock, told = find_clock(args)
     functions = output("objdump", "-d", "-C", "-M", "intel", "--no-show-raw-insn",
                        args.program).split("\n\n")
-    times = {}
-    if args.measure:
-        times = measured(output(args.program, "--benchmark_format=json",
-                                "--benchmark_enable_random_interleaving=true"))
-    elif args.times:
-        times = measured(args.times.read_text())
     names = times or {f"{dims}/{composition}/{isa}" for dims in ("2D", "3D")
                       for composition in COMPOSITIONS for isa in SETS} - {
                           f"2D/twisting/{isa}" for isa in SETS}
     names = sorted(names, key=lambda name: [ORDER.index(word) for word in name.split("/")])
-    told = "as told" if args.clock else ("of /proc/cpuinfo, which in a virtual machine need not be "
-                                         "the core's")
     table = prose(f"""{processor()}, one core; clock {clock:.2f} GHz, {told}. Counts of the loop
         over complete groups of contacts of one kind, by bench/roofline.py; 512, 256, 128:
         arithmetic by bits of the registers. Bound: the largest of the cycles; ratio: time to bound;
@@ -247,10 +315,24 @@ def main():
         table += HEAD + [line(name, functions, times, clock) for name in names]
     except ValueError as error:
         stop(f"{args.program}: {error}")
-    print(*table, sep="\n")
+    return "\n".join(table) + "\n"
+
+
+def main():
+    args = arguments()
+    table, plot = args.results / "kernel.txt", args.results / "kernel.png"
+    if args.draw:
+        if not table.is_file():
+            stop(f"{table}: not there; --measure writes it")
+        draw(table.read_text(), plot)
+        return
+    times = find_times(args)
+    text = report(args, times)
+    print(text, end="")
     if times:
         args.results.mkdir(parents=True, exist_ok=True)
-        (args.results / "kernel.txt").write_text("\n".join(table) + "\n")
+        table.write_text(text)
+        draw(text, plot)
 
 
 if __name__ == "__main__":

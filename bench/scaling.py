@@ -25,9 +25,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.lines import Line2D
 
 from lammps_runs import (CHANNEL, HERE, Failure, check_log, environment, lammps_command, processor,
-                         prose, read_log, stop)
+                         prose, read_log, stop, verdict)
 
 WARM = 5                        # particle steps before the clock starts
 PARTICLE_STEP = 1e-3            # of the channel                                    [L/U]
@@ -169,11 +170,6 @@ def case_lines(samples):
     return lines
 
 
-def verdict(what, value, target, good):
-    """One line: measured, target."""
-    return f"{what:<58}{value:>8}   target {target:<18}{'reached' if good else 'missed'}"
-
-
 def cost_lines(samples, sizes):
     """Cost of the largest cloud relative to the smallest, on one rank."""
     lines = []
@@ -242,25 +238,42 @@ def draw_cost(axis, samples):
             middle = np.array([np.median(c) for c in costs])
             axis.errorbar([rows[0].particles for rows in cases], middle, capsize=3, color=colour,
                           yerr=(middle - [min(c) for c in costs], [max(c) for c in costs] - middle),
-                          marker="o", linestyle="-" if ranks == 1 else "--",
-                          label=f"{name}, {ranks} rank" + "s" * (ranks > 1))
+                          marker="o", linestyle="-" if ranks == 1 else "--")
+            if ranks == 1 and name != "stock":
+                ends = [cases[k][0].particles for k in (0, -1)]
+                axis.plot(ends, [TARGETS["cost"] * middle[0]] * 2, color=colour, linestyle=":")
     axis.set(xscale="log", yscale="log", xlabel="particles",
              ylabel="time per particle and particle step [ns]")
+    smallest = min(size for name, size, _ in samples if name in COLOURS)
+    percent = 100 * (TARGETS["cost"] - 1)
+    explain(axis, {"1 rank": "-", "more ranks": "--",
+                   f"target for 1 rank: {percent:.0f} % above its cost at {smallest:.0e}": ":"})
 
 
 def draw_memory(axis, samples):
     """Memory per particle over size, one rank."""
     for name, colour in COLOURS.items():
         cases = [case for case in samples if case[0] == name and case[2] == 1]
-        for key, look, words in (("allocated", "-", "LAMMPS's count"),
-                                 ("resident", ":", "resident, peak")):
+        for key, look in (("allocated", "-"), ("resident", "--")):
             shown = cases if key == "allocated" else cases[1:]
             axis.plot([samples[case][0].particles for case in shown],
                       [memory(samples, key, case) for case in shown], look, marker="o",
-                      color=colour, label=f"{name}, {words}")
-    axis.axhline(TARGETS["memory"], color="k", linewidth=0.9, linestyle="--", label="target")
+                      color=colour)
+    axis.axhline(TARGETS["memory"], color="k", linestyle=":")
     axis.set(xscale="log", xlabel="particles", ylabel="memory per particle, one rank [kB]")
     axis.set_ylim(bottom=0)
+    explain(axis, {"LAMMPS's count": "-", "resident, peak, of each further particle": "--",
+                   f"target: {TARGETS['memory']} kB": ":"})
+
+
+def explain(axis, looks):
+    """Legend: colours of the clouds, and what each sort of line is."""
+    handles = [Line2D([], [], color=colour, marker="o", linestyle="", label=name)
+               for name, colour in COLOURS.items()]
+    handles += [Line2D([], [], color="k", linestyle=look, label=words)
+                for words, look in looks.items()]
+    axis.legend(handles=handles, fontsize=8, frameon=False, ncol=2, loc="lower center",
+                bbox_to_anchor=(0.5, 1))
 
 
 def draw(samples, path):
@@ -271,7 +284,6 @@ def draw(samples, path):
     for axis in panels:
         axis.grid(True, which="major", color="0.9")
         axis.spines[["top", "right"]].set_visible(False)
-        axis.legend(fontsize=8, frameon=False, ncol=2, loc="lower center", bbox_to_anchor=(0.5, 1))
     figure.tight_layout()
     figure.savefig(path, dpi=120)
 

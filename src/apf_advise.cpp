@@ -1,7 +1,9 @@
 #include "apf_advise.h"
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "comm.h"
+#include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_flow_field.h"
@@ -54,6 +56,7 @@ void APFAdvise::command(int narg, char **arg)
 
 void APFAdvise::parse(int narg, char **arg)
 {
+  const ArgumentReader reader(lmp, "Command apf_advise", arg);
   GivenOnce given(lmp, "Command apf_advise");
   for (int iarg = 0; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
@@ -61,9 +64,7 @@ void APFAdvise::parse(int narg, char **arg)
     if (word != "speed" && word != "length")
       error->all(FLERR, iarg, "Command apf_advise keyword must be speed or length, got {}", word);
     if (iarg + 1 == narg) utils::missing_cmd_args(FLERR, "apf_advise " + word, error);
-    const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    if (!(value > 0.0))
-      error->all(FLERR, iarg + 1, "Command apf_advise {} must be > 0, got {}", word, arg[iarg + 1]);
+    const double value = reader.number(iarg + 1, word, Range::above(0.0));
     (word == "speed" ? scene.U : scene.L) = value;
     (word == "speed" ? speed_given : length_given) = true;
   }
@@ -198,11 +199,11 @@ void APFAdvise::advise_contact(const std::string &name, const ContactCoeff &coef
                   contact.rest.frequency, contact.rest.name(),
                   scene.collision_step(2.0 * r, rho, E), contact.collision_step));
   finest = finest > 0.0 ? std::min(finest, contact.collision_step) : contact.collision_step;
-  constexpr double much = 0.05;
-  if (std::max(contact.rest_overlap, contact.impact_overlap) > much * r)
+  if (std::max(contact.rest_overlap, contact.impact_overlap) > much_overlap * r)
     cures.push_back(fmt::format("contact {}: overlap is {:.3g} of the radius at rest and {:.3g} in "
                                 "an impact at U; above {} take a larger E or scale_stiffness",
-                                name, contact.rest_overlap / r, contact.impact_overlap / r, much));
+                                name, contact.rest_overlap / r, contact.impact_overlap / r,
+                                much_overlap));
 }
 
 /* ----------------------------------------------------------------------

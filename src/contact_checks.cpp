@@ -15,23 +15,12 @@
 
 namespace LAMMPS_NS {
 
-namespace {
-  // where JKR's force balances a pull: s^3 (s^3 - 6 m^3) = pull/K
-  double overlap_under(const apf::JKR &law, double pull)
-  {
-    const double half = 3.0 * law.neck3();
-    return law.overlap(std::cbrt(half + std::hypot(half, std::sqrt(pull / law.K))));
-  }
-}    // namespace
-
-void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel &model,
-                   const apf::BridgeModel &bridge, double R, double smaller_radius)
+void check_overlap(LAMMPS *lmp, const std::string &who, const apf::WetContact &wet, double R,
+                   double smaller_radius)
 {
-  constexpr double much = 0.05, too_much = 0.5;
-  if (!model.adhesive() && !bridge.present()) return;
-  const double pull = bridge.present() ? 4.0 * apf::pi * R * bridge.sigma * std::cos(bridge.theta)
-                                       : 0.0;
-  const double ratio = overlap_under(model.normal(R), pull) / smaller_radius;
+  constexpr double much = much_overlap, too_much = 10.0 * much;
+  const apf::ContactModel &model = wet.dry;
+  const double ratio = apf::overlap_at_rest(wet, R) / smaller_radius;
   if (ratio <= much) return;
   // overlap / r ~ (gamma/E)^(2/3), as ~ (sigma/E)^(2/3), and gamma ~ f^(2/5) where the stiffness is
   // scaled by f; sigma stays, for which a smaller f would do

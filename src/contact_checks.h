@@ -11,11 +11,13 @@
 namespace LAMMPS_NS {
 class LAMMPS;
 
-// Particles at rest that overlap by more than 5 % of the smaller radius, by their adhesion and the
-// pull of a bridge: warning; 50 %: error.
+constexpr double much_overlap = 0.05;    // of the smaller radius: laws are made for small contacts
+
+// Particles at rest that overlap by more than that, by their adhesion and the pull of a bridge:
+// warning; by ten times as much: error.
 //   who   begins the message, as in "Pair granular/adhesive types 1 2"
-void check_overlap(LAMMPS *lmp, const std::string &who, const apf::ContactModel &model,
-                   const apf::BridgeModel &bridge, double R, double smaller_radius);
+void check_overlap(LAMMPS *lmp, const std::string &who, const apf::WetContact &wet, double R,
+                   double smaller_radius);
 
 // An error in units where force is not mass times acceleration, or E no pressure.
 void check_units(LAMMPS *lmp, const std::string &who);

@@ -1,5 +1,6 @@
 #include "contact_keywords.h"
 
+#include "argument_reader.h"
 #include "error.h"
 #include "fmt/format.h"
 #include "given_once.h"
@@ -15,15 +16,14 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-constexpr double infinity = INFINITY;
-constexpr double largest = 1.0e30;    // products of a few numbers are finite yet
 constexpr double rounding = 1.0e-12;
 
 // Reads words one after another; errors name command, keyword, value and range.
 class Words {
  public:
   Words(LAMMPS *lmp, const char *command, int narg, char **arg, int &iarg, int offset) :
-      lmp(lmp), command(command), narg(narg), arg(arg), iarg(iarg), offset(offset)
+      lmp(lmp), command(command), reader(lmp, command, arg, offset), narg(narg), arg(arg),
+      iarg(iarg), offset(offset)
   {
   }
 
@@ -43,24 +43,21 @@ class Words {
     return arg[iarg++];
   }
 
-  double number(const std::string &keyword, double low, bool low_allowed, double high)
+  double number(const std::string &keyword, const Range &range)
   {
-    const std::string range = std::isinf(high)
-        ? fmt::format("{} {}", low_allowed ? ">=" : ">", low)
-        : fmt::format("in {}{}, {}]", low_allowed ? '[' : '(', low, high);
-    if (at_end()) refuse(fmt::format("{} is missing; it must be {}", keyword, range));
-    if (!utils::is_double(arg[iarg]))
-      lmp->error->all(FLERR, offset + iarg, "{} {} must be a number, got {}", command, keyword,
-                      arg[iarg]);
-    const double value = utils::numeric(FLERR, arg[iarg], false, lmp);
-    if (!(low_allowed ? value >= low : value > low) || !(value <= high))
-      lmp->error->all(FLERR, offset + iarg, "{} {} must be {}, got {}", command, keyword, range,
-                      arg[iarg]);
-    if (value > largest)
-      lmp->error->all(FLERR, offset + iarg, "{} {} must be <= {}, got {}", command, keyword,
-                      largest, arg[iarg]);
-    iarg++;
-    return value;
+    if (at_end()) refuse(fmt::format("{} is missing; it must be {}", keyword, range.words()));
+    return reader.number(iarg++, keyword, range);
+  }
+
+  int choice(const std::string &keyword, std::initializer_list<const char *> words)
+  {
+    need(1, keyword);
+    return reader.choice(iarg++, keyword, words);
+  }
+  bool yes(const std::string &keyword)
+  {
+    need(1, keyword);
+    return reader.yes(iarg++, keyword);
   }
 
   [[noreturn]] void refuse(const std::string &message) const
@@ -68,15 +65,10 @@ class Words {
     lmp->error->all(FLERR, offset + (at_end() ? narg - 1 : iarg), "{} {}", command, message);
   }
 
-  // the same where the word is none of those that the message lists
-  [[noreturn]] void refuse_word(const std::string &message) const
-  {
-    refuse(fmt::format("{}, got {}", message, arg[iarg]));
-  }
-
  private:
   LAMMPS *lmp;
   const char *command;
+  ArgumentReader reader;
   int narg;
   char **arg;
   int &iarg;
@@ -85,19 +77,16 @@ class Words {
 
 void parse_damping(Words &words, apf::ContactModel &model)
 {
-  if (words.is("tsuji")) {
-    words.skip();
-    model.alpha =
-        apf::damping_from_restitution(words.number("damping tsuji restitution", 0.0, false, 1.0));
-  } else if (words.is("alpha")) {
-    words.skip();
-    model.alpha = words.number("damping alpha", 0.0, true, infinity);
-  } else if (words.is("none")) {
-    words.skip();
-    model.alpha = 0.0;
-  } else {
-    words.need(1, "damping");
-    words.refuse_word("damping must be tsuji, alpha or none");
+  switch (words.choice("damping", {"tsuji", "alpha", "none"})) {
+    case 0:
+      model.alpha = apf::damping_from_restitution(
+          words.number("damping tsuji restitution", Range::above(0.0, 1.0)));
+      break;
+    case 1:
+      model.alpha = words.number("damping alpha", Range::from(0.0));
+      break;
+    default:
+      model.alpha = 0.0;
   }
 }
 
@@ -109,65 +98,44 @@ bool parse_keyword(Words &words, apf::ContactModel &model)
     parse_damping(words, model);
   } else if (words.is("sliding")) {
     words.skip();
-    model.mu = words.number("sliding mu", 0.0, true, infinity);
+    model.mu = words.number("sliding mu", Range::from(0.0));
   } else if (words.is("twisting")) {
     words.skip();
-    words.need(1, "twisting");
-    if (!words.is("yes") && !words.is("no")) words.refuse_word("twisting must be yes or no");
-    model.twisting = words.is("yes");
-    words.skip();
+    model.twisting = words.yes("twisting");
   } else if (words.is("rolling")) {
     words.skip();
-    model.theta_crit = words.number("rolling theta_crit", 0.0, true, 1.0);
-    if (words.is_number()) model.zeta = words.number("rolling zeta", 0.0, true, infinity);
+    model.theta_crit = words.number("rolling theta_crit", Range::from(0.0, 1.0));
+    if (words.is_number()) model.zeta = words.number("rolling zeta", Range::from(0.0));
   } else if (words.is("break")) {
     words.skip();
-    words.need(1, "break");
-    if (words.is("displacement"))
-      model.neck_end = apf::Break::displacement;
-    else if (words.is("force"))
-      model.neck_end = apf::Break::force;
-    else if (words.is("touch"))
-      model.neck_end = apf::Break::touch;
-    else
-      words.refuse_word("break must be displacement, force or touch");
-    words.skip();
+    constexpr apf::Break ends[] = {apf::Break::displacement, apf::Break::force, apf::Break::touch};
+    model.neck_end = ends[words.choice("break", {"displacement", "force", "touch"})];
   } else if (words.is("scale_stiffness")) {
     words.skip();
-    model.stiffness_scale = words.number("scale_stiffness", 0.0, false, 1.0);
+    model.stiffness_scale = words.number("scale_stiffness", Range::above(0.0, 1.0));
   } else {
     return false;
   }
   return true;
 }
 
-// true at one of two words, which is then passed; keyword: what it belongs to
-bool parse_choice(Words &words, const std::string &keyword, const char *first, const char *second)
-{
-  words.need(1, keyword);
-  const bool is_first = words.is(first);
-  if (!is_first && !words.is(second))
-    words.refuse_word(fmt::format("{} must be {} or {}", keyword, first, second));
-  words.skip();
-  return is_first;
-}
-
 void parse_bridge(Words &words, apf::BridgeModel &bridge)
 {
-  bridge.volume_ratio = words.number("bridge volume ratio l", 0.0, false, 1.0);
-  bridge.sigma = words.number("bridge surface tension sigma", 0.0, false, infinity);
-  bridge.theta = words.number("bridge contact angle theta", 0.0, true, 89.0) * apf::pi / 180.0;
-  bridge.mu = words.number("bridge viscosity mu", 0.0, true, infinity);
+  bridge.volume_ratio = words.number("bridge volume ratio l", Range::above(0.0, 1.0));
+  bridge.sigma = words.number("bridge surface tension sigma", Range::above(0.0));
+  bridge.theta =
+      words.number("bridge contact angle theta", Range::from(0.0, 89.0)) * apf::pi / 180.0;
+  bridge.mu = words.number("bridge viscosity mu", Range::from(0.0));
   if (words.is_number())
-    bridge.roughness = words.number("bridge least gap hmin over R", 1e-12, true, 1.0);
+    bridge.roughness = words.number("bridge least gap hmin over R", Range::from(1e-12, 1.0));
 }
 
 double parse_wet_gamma(Words &words)
 {
-  const double x = words.number("wet_gamma x_ratio", 0.0, false, infinity);
-  const double Ai = words.number("wet_gamma A_i", 0.0, false, infinity);
-  const double Aj = words.number("wet_gamma A_j", 0.0, false, infinity);
-  const double Af = words.number("wet_gamma A_f", 0.0, true, infinity);
+  const double x = words.number("wet_gamma x_ratio", Range::above(0.0));
+  const double Ai = words.number("wet_gamma A_i", Range::above(0.0));
+  const double Aj = words.number("wet_gamma A_j", Range::above(0.0));
+  const double Af = words.number("wet_gamma A_f", Range::from(0.0));
   const double share = apf::wet_surface_energy(x, Ai, Aj, Af);
   if (share < 0.0)
     words.refuse(fmt::format("wet_gamma A_f = {} lies between A_i = {} and A_j = {}: surfaces that "
@@ -193,24 +161,24 @@ bool parse_liquid(Words &words, apf::BridgeModel &bridge)
     parse_bridge(words, bridge);
   } else if (words.is("form")) {
     words.skip();
-    bridge.forming = parse_choice(words, "form", "contact", "film") ? apf::Forming::contact
+    bridge.forming = words.choice("form", {"contact", "film"}) == 0 ? apf::Forming::contact
                                                                     : apf::Forming::film;
   } else if (words.is("capillary")) {
     words.skip();
-    bridge.capillary = parse_choice(words, "capillary", "maugis", "willett")
+    bridge.capillary = words.choice("capillary", {"maugis", "willett"}) == 0
         ? apf::Capillary::maugis
         : apf::Capillary::willett;
   } else if (words.is("tangential")) {
     words.skip();
-    bridge.tangential = parse_choice(words, "tangential", "yes", "no");
+    bridge.tangential = words.yes("tangential");
   } else if (words.is("wet_gamma")) {
     words.skip();
     bridge.wet_share = parse_wet_gamma(words);
   } else if (words.is("inventory")) {
     words.skip();
-    bridge.intake = words.number("inventory share", 0.0, false, 1.0);
+    bridge.intake = words.number("inventory share", Range::above(0.0, 1.0));
     if (words.is("even") || words.is("origin"))
-      bridge.sharing = parse_choice(words, "inventory split", "even", "origin")
+      bridge.sharing = words.choice("inventory split", {"even", "origin"}) == 0
           ? apf::Sharing::even
           : apf::Sharing::origin;
   } else {
@@ -265,9 +233,9 @@ ContactCoeff LAMMPS_NS::parse_contact(LAMMPS *lmp, const char *command, int narg
   words.need(1, "contact law");
   if (words.is("jkr")) {
     words.skip();
-    coeff.material.E = words.number("Young's modulus E", 0.0, false, infinity);
-    coeff.material.nu = words.number("Poisson's ratio nu", -1.0, false, 0.5);
-    coeff.material.gamma = words.number("surface energy gamma", 0.0, true, infinity);
+    coeff.material.E = words.number("Young's modulus E", Range::above(0.0));
+    coeff.material.nu = words.number("Poisson's ratio nu", Range::above(-1.0, 0.5));
+    coeff.material.gamma = words.number("surface energy gamma", Range::from(0.0));
   } else if (words.is("material")) {
     words.skip();
     words.need(2, "material");

@@ -1,5 +1,6 @@
 #include "fix_flow_concentration.h"
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
@@ -15,7 +16,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <map>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -46,12 +46,9 @@ FixFlowConcentration::FixFlowConcentration(LAMMPS *lmp, int narg, char **arg) :
 std::array<int, 3> FixFlowConcentration::parse_cells(int narg, char **arg)
 {
   if (narg < 8) utils::missing_cmd_args(FLERR, "fix flow/concentration", error);
+  const ArgumentReader reader(lmp, command, arg);
   std::array<int, 3> n;
-  for (int c = 0; c < 3; c++) {
-    n[c] = utils::inumeric(FLERR, arg[3 + c], false, lmp);
-    if (n[c] < 1)
-      error->all(FLERR, 3 + c, "{} number of cells must be >= 1, got {}", command, arg[3 + c]);
-  }
+  for (int c = 0; c < 3; c++) n[c] = reader.integer(3 + c, "number of cells", Range::from(1));
   if (domain->dimension == 2 && n[2] != 1)
     error->all(FLERR, 5, "{} number of cells along z must be 1 in a 2d simulation, got {}", command,
                arg[5]);
@@ -60,6 +57,7 @@ std::array<int, 3> FixFlowConcentration::parse_cells(int narg, char **arg)
 
 void FixFlowConcentration::parse(int narg, char **arg)
 {
+  const ArgumentReader reader(lmp, command, arg);
   GivenOnce given(lmp, command);
   for (int iarg = 6; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
@@ -68,23 +66,14 @@ void FixFlowConcentration::parse(int narg, char **arg)
       error->all(FLERR, iarg, "{} keyword must be cloud, every or method, got {}", command, word);
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix flow/concentration " + word, error);
     if (word == "every") {
-      every = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (every < 1)
-        error->all(FLERR, iarg + 1, "{} every must be >= 1, got {}", command, arg[iarg + 1]);
+      every = reader.integer(iarg + 1, word, Range::from(1));
     } else if (word == "method") {
-      const std::map<std::string, Method> methods = {
-          {"auto", Method::AUTO}, {"direct", Method::DIRECT}, {"fft", Method::FFT}};
-      const auto found = methods.find(arg[iarg + 1]);
-      if (found == methods.end())
-        error->all(FLERR, iarg + 1, "{} method must be auto, direct or fft, got {}", command,
-                   arg[iarg + 1]);
-      method = found->second;
+      constexpr Method methods[] = {Method::AUTO, Method::DIRECT, Method::FFT};
+      method = methods[reader.choice(iarg + 1, word, {"auto", "direct", "fft"})];
       if (method == Method::FFT && !SlabTransform::available())
         error->all(FLERR, iarg + 1, "{} method fft needs APF built with FFTW for MPI", command);
     } else {
-      radius = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-      if (!(radius > 0.0 && std::isfinite(radius)))
-        error->all(FLERR, iarg + 1, "{} cloud radius must be > 0, got {}", command, arg[iarg + 1]);
+      radius = reader.number(iarg + 1, "cloud radius", Range::above(0.0));
     }
   }
   if (radius == 0.0) error->all(FLERR, "{} requires keyword cloud", command);

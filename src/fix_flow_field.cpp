@@ -35,7 +35,7 @@ FixFlowField::FixFlowField(LAMMPS *lmp, int narg, char **arg) :
   if (strcmp(arg[3], "file") == 0) {
     parse_file(narg, arg);
   } else {
-    GivenOnce given(lmp, "Fix flow/field");
+    GivenOnce given(lmp, command);
     int iarg = parse_kind(narg, arg);
     while (iarg < narg) {
       given.add(arg[iarg], iarg);

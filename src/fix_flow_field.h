@@ -60,6 +60,8 @@ class FixFlowField : public Fix {
   void distance(const apf::PointBlock &points, apf::Lanes &out) const;
 
  private:
+  static constexpr const char *command = "Fix flow/field";
+
   // a number, or an equal-style variable that is evaluated each fluid step
   struct Speed {
     double value = 0.0;
@@ -89,7 +91,7 @@ class FixFlowField : public Fix {
   void parse_file(int narg, char **arg);
   int parse_property(int iarg, int narg, char **arg);
   int axis(const char *word, int iarg);
-  Speed parse_speed(const char *word);
+  Speed parse_speed(int iarg, char **arg, const char *what);
 
   double time() const;
   void evaluate();

@@ -2,6 +2,7 @@
 
 #include "fix_flow_field.h"
 
+#include "argument_reader.h"
 #include "domain.h"
 #include "error.h"
 #include "flow_grid.h"
@@ -23,10 +24,8 @@ int FixFlowField::parse_property(int iarg, int narg, char **arg)
                arg[iarg]);
   if (iarg + 2 > narg)
     utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + arg[iarg], error);
-  const double value = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  if (!(value > 0.0))
-    error->all(FLERR, iarg + 1, "Fix flow/field {} must be > 0, got {}", arg[iarg], arg[iarg + 1]);
-  (is_density ? density : viscosity) = value;
+  (is_density ? density : viscosity) =
+      ArgumentReader(lmp, command, arg).number(iarg + 1, arg[iarg], Range::above(0.0));
   return iarg + 2;
 }
 
@@ -65,12 +64,13 @@ int FixFlowField::parse_channel(char **arg)
   channel.wall = axis(arg[5], 5);
   if (channel.wall == channel.flow)
     error->all(FLERR, 5, "Fix flow/field channel wall axis must differ from flow axis {}", arg[4]);
-  channel.lo = utils::numeric(FLERR, arg[6], false, lmp);
-  channel.hi = utils::numeric(FLERR, arg[7], false, lmp);
+  const ArgumentReader reader(lmp, command, arg);
+  channel.lo = reader.number(6, "channel lower wall");
+  channel.hi = reader.number(7, "channel upper wall");
   if (!(channel.lo < channel.hi))
     error->all(FLERR, 7, "Fix flow/field channel upper wall must be > lower wall {}, got {}",
                arg[6], arg[7]);
-  speed[0] = parse_speed(arg[8]);
+  speed[0] = parse_speed(8, arg, "channel speed");
   flow = channel;
   return 9;
 }
@@ -85,12 +85,10 @@ int FixFlowField::parse_pipe(char **arg)
   pipe.flow = axis(arg[4], 4);
   pipe.across[0] = pipe.flow == 0 ? 1 : 0;
   pipe.across[1] = pipe.flow == 2 ? 1 : 2;
-  pipe.centre[0] = utils::numeric(FLERR, arg[5], false, lmp);
-  pipe.centre[1] = utils::numeric(FLERR, arg[6], false, lmp);
-  pipe.radius = utils::numeric(FLERR, arg[7], false, lmp);
-  if (!(pipe.radius > 0.0))
-    error->all(FLERR, 7, "Fix flow/field pipe radius must be > 0, got {}", arg[7]);
-  speed[0] = parse_speed(arg[8]);
+  const ArgumentReader reader(lmp, command, arg);
+  for (int c = 0; c < 2; c++) pipe.centre[c] = reader.number(5 + c, "pipe centre");
+  pipe.radius = reader.number(7, "pipe radius", Range::above(0.0));
+  speed[0] = parse_speed(8, arg, "pipe speed");
   flow = pipe;
   return 9;
 }
@@ -99,7 +97,7 @@ int FixFlowField::parse_pipe(char **arg)
 
 int FixFlowField::parse_uniform(char **arg)
 {
-  for (int k = 0; k < 3; k++) speed[k] = parse_speed(arg[4 + k]);
+  for (int k = 0; k < 3; k++) speed[k] = parse_speed(4 + k, arg, "uniform velocity");
   if (domain->dimension == 2 && (speed[2].value != 0.0 || !speed[2].variable.empty()))
     error->all(FLERR, 6, "Fix flow/field uniform z velocity must be 0 in a 2d simulation, got {}",
                arg[6]);
@@ -117,8 +115,8 @@ int FixFlowField::parse_shear(char **arg)
   if (shear.across == shear.flow)
     error->all(FLERR, 5, "Fix flow/field shear gradient axis must differ from flow axis {}",
                arg[4]);
-  speed[0] = parse_speed(arg[6]);
-  shear.origin = utils::numeric(FLERR, arg[7], false, lmp);
+  speed[0] = parse_speed(6, arg, "shear rate");
+  shear.origin = ArgumentReader(lmp, command, arg).number(7, "shear origin");
   flow = shear;
   return 8;
 }
@@ -131,7 +129,7 @@ void FixFlowField::parse_file(int narg, char **arg)
 {
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix flow/field file", error);
   FlowGrid::Options options;
-  GivenOnce given(lmp, "Fix flow/field");
+  GivenOnce given(lmp, command);
   int iarg = 5;
   while (iarg < narg) {
     given.add(arg[iarg], iarg);
@@ -163,13 +161,13 @@ int FixFlowField::axis(const char *word, int iarg)
 
 /* ---------------------------------------------------------------------- */
 
-FixFlowField::Speed FixFlowField::parse_speed(const char *word)
+FixFlowField::Speed FixFlowField::parse_speed(int iarg, char **arg, const char *what)
 {
   Speed result;
-  if (utils::strmatch(word, "^v_")) {
-    result.variable = word + 2;
+  if (utils::strmatch(arg[iarg], "^v_")) {
+    result.variable = arg[iarg] + 2;
     varies = true;
   } else
-    result.value = utils::numeric(FLERR, word, false, lmp);
+    result.value = ArgumentReader(lmp, command, arg).number(iarg, what);
   return result;
 }

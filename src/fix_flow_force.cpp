@@ -1,13 +1,14 @@
 #include "fix_flow_force.h"
 
 #include "atom.h"
+#include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_flow_field.h"
 #include "fix_nve_sphere_mts.h"
-#include "force.h"
 #include "memory.h"
 #include "modify.h"
+#include "particle_checks.h"
 #include "respa.h"
 #include "update.h"
 
@@ -35,8 +36,7 @@ FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
     rows(apf::lane_rows()), parts{}, total_all{}
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix flow/force", error);
-  if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-    error->all(FLERR, "Fix flow/force requires atom_style sphere, got {}", atom->get_style());
+  check_spheres(lmp, command, 2);
 
   field_id = arg[3];
   field = find_field(3);
@@ -101,11 +101,7 @@ void FixFlowForce::init()
   field = find_field(Error::NOLASTLINE);
   field->require(model.detail());
   check_particles();
-  if (force->ftm2v != 1.0)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Fix flow/force requires units where force = mass * acceleration "
-               "(lj, si, cgs, micro, nano), got {}",
-               update->unit_style);
+  check_units(lmp, command);
   if (!concentration_id.empty()) cloud = find_concentration(Error::NOLASTLINE);
   if (feedback) feedback->set_up();
   check_other_fixes();

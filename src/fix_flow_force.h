@@ -47,6 +47,8 @@ class FixFlowForce : public FixPerGrid {
   double share(int i) const;
 
  private:
+  static constexpr const char *command = "Fix flow/force";
+
   std::string field_id;
   class FixFlowField *field = nullptr;
   apf::FluidModel model;

@@ -2,6 +2,7 @@
 
 #include "fix_flow_force.h"
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -42,7 +43,7 @@ void FixFlowForce::parse(int narg, char **arg)
                   {"concentration", 1, &FixFlowForce::parse_concentration},
                   {"peratom", 1, &FixFlowForce::parse_switch},
                   {"feedback", 1, &FixFlowForce::parse_feedback}};
-  GivenOnce given(lmp, "Fix flow/force");
+  GivenOnce given(lmp, command);
   int iarg = 4;
   while (iarg < narg) {
     const std::string word = arg[iarg];
@@ -77,48 +78,41 @@ void FixFlowForce::parse(int narg, char **arg)
 
 int FixFlowForce::parse_drag(int iarg, int narg, char **arg)
 {
-  const std::string law = arg[iarg + 1];
-  if (law == "stokes")
-    model.drag = apf::FluidModel::STOKES;
-  else if (law == "schiller")
-    model.drag = apf::FluidModel::SCHILLER;
-  else if (law == "difelice") {
-    const bool superficial = iarg + 2 < narg && strcmp(arg[iarg + 2], "superficial") == 0;
-    model.drag = superficial ? apf::FluidModel::DI_FELICE_SUPERFICIAL : apf::FluidModel::DI_FELICE;
-    return iarg + (superficial ? 3 : 2);
-  } else
-    error->all(FLERR, iarg + 1, "Fix flow/force drag must be stokes, schiller or difelice, got {}",
-               law);
-  return iarg + 2;
+  using Model = apf::FluidModel;
+  constexpr Model::Drag laws[] = {Model::STOKES, Model::SCHILLER, Model::DI_FELICE};
+  const ArgumentReader reader(lmp, command, arg);
+  model.drag = laws[reader.choice(iarg + 1, "drag", {"stokes", "schiller", "difelice"})];
+  const bool superficial = model.drag == Model::DI_FELICE && iarg + 2 < narg &&
+      strcmp(arg[iarg + 2], "superficial") == 0;
+  if (superficial) model.drag = Model::DI_FELICE_SUPERFICIAL;
+  return iarg + (superficial ? 3 : 2);
 }
 
 int FixFlowForce::parse_switch(int iarg, int /*narg*/, char **arg)
 {
-  const std::string word = arg[iarg], value = arg[iarg + 1];
-  if (value != "yes" && value != "no")
-    error->all(FLERR, iarg + 1, "Fix flow/force {} must be yes or no, got {}", word, value);
+  const std::string word = arg[iarg];
   bool &which = word == "torque" ? model.torque
       : word == "magnus"         ? model.magnus
       : word == "added_mass"     ? model.added_mass
       : word == "peratom"        ? per_atom
                                  : model.pressure;
-  which = value == "yes";
+  which = ArgumentReader(lmp, command, arg).yes(iarg + 1, word);
   return iarg + 2;
 }
 
 int FixFlowForce::parse_lift(int iarg, int /*narg*/, char **arg)
 {
-  if (strcmp(arg[iarg + 1], "saffman") != 0)
-    error->all(FLERR, iarg + 1, "Fix flow/force lift must be saffman, got {}", arg[iarg + 1]);
+  ArgumentReader(lmp, command, arg).choice(iarg + 1, "lift", {"saffman"});
   model.lift = true;
   return iarg + 2;
 }
 
 int FixFlowForce::parse_gravity(int iarg, int /*narg*/, char **arg)
 {
-  model.gravity.x = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  model.gravity.y = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
-  model.gravity.z = utils::numeric(FLERR, arg[iarg + 3], false, lmp);
+  const ArgumentReader reader(lmp, command, arg);
+  model.gravity.x = reader.number(iarg + 1, "gravity");
+  model.gravity.y = reader.number(iarg + 2, "gravity");
+  model.gravity.z = reader.number(iarg + 3, "gravity");
   if (domain->dimension == 2 && model.gravity.z != 0.0)
     error->all(FLERR, iarg + 3,
                "Fix flow/force gravity along z must be 0 in a 2d simulation, got {}",
@@ -129,13 +123,9 @@ int FixFlowForce::parse_gravity(int iarg, int /*narg*/, char **arg)
 
 int FixFlowForce::parse_brownian(int iarg, int /*narg*/, char **arg)
 {
-  const double temperature = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  if (!(temperature >= 0.0))
-    error->all(FLERR, iarg + 1, "Fix flow/force brownian temperature must be >= 0, got {}",
-               arg[iarg + 1]);
-  const int seed = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
-  if (seed <= 0)
-    error->all(FLERR, iarg + 2, "Fix flow/force brownian seed must be > 0, got {}", arg[iarg + 2]);
+  const ArgumentReader reader(lmp, command, arg);
+  const double temperature = reader.number(iarg + 1, "brownian temperature", Range::from(0.0));
+  const int seed = reader.integer(iarg + 2, "brownian seed", Range::above(0));
   if (!atom->tag_enable) error->all(FLERR, iarg, "Fix flow/force brownian requires atom IDs");
   model.brownian = true;
   model.kT = force->boltz * temperature;
@@ -145,10 +135,8 @@ int FixFlowForce::parse_brownian(int iarg, int /*narg*/, char **arg)
 
 int FixFlowForce::parse_cunningham(int iarg, int /*narg*/, char **arg)
 {
-  model.mean_free_path = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  if (!(model.mean_free_path > 0.0))
-    error->all(FLERR, iarg + 1, "Fix flow/force cunningham mean free path must be > 0, got {}",
-               arg[iarg + 1]);
+  model.mean_free_path = ArgumentReader(lmp, command, arg)
+                             .number(iarg + 1, "cunningham mean free path", Range::above(0.0));
   return iarg + 2;
 }
 
@@ -159,10 +147,8 @@ int FixFlowForce::parse_concentration(int iarg, int /*narg*/, char **arg)
     cloud = find_concentration(iarg + 1);
     return iarg + 2;
   }
-  concentration = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-  if (!(concentration >= 0.0 && concentration <= apf::max_concentration))
-    error->all(FLERR, iarg + 1, "Fix flow/force concentration must be in [0, {}], got {}",
-               apf::max_concentration, arg[iarg + 1]);
+  concentration = ArgumentReader(lmp, command, arg)
+                      .number(iarg + 1, "concentration", Range::from(0.0, apf::max_concentration));
   return iarg + 2;
 }
 
@@ -184,12 +170,14 @@ int FixFlowForce::parse_feedback(int iarg, int narg, char **arg)
                "Fix flow/force feedback must be yes, no or numbers of cells, got {}", value);
   if (iarg + 4 > narg) utils::missing_cmd_args(FLERR, "fix flow/force feedback", error);
   std::array<int, 3> cells;
-  for (int c = 0; c < 3; c++) {
-    cells[c] = utils::inumeric(FLERR, arg[iarg + 1 + c], false, lmp);
-    if (cells[c] < 1 || (domain->dimension == 2 && c == 2 && cells[c] != 1))
-      error->all(FLERR, iarg + 1 + c, "Fix flow/force feedback number of cells must be {}, got {}",
-                 cells[c] < 1 ? ">= 1" : "1 along z in a 2d simulation", arg[iarg + 1 + c]);
-  }
+  const ArgumentReader reader(lmp, command, arg);
+  for (int c = 0; c < 3; c++)
+    cells[c] = reader.integer(iarg + 1 + c, "feedback number of cells", Range::from(1));
+  if (domain->dimension == 2 && cells[2] != 1)
+    error->all(FLERR, iarg + 3,
+               "Fix flow/force feedback number of cells must be 1 along z in a 2d simulation, got "
+               "{}",
+               arg[iarg + 3]);
   if (domain->triclinic)
     error->all(FLERR, iarg, "Fix flow/force feedback needs an orthogonal simulation box");
   feedback = std::make_unique<FlowFeedback>(lmp, this, cells);

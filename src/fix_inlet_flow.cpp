@@ -23,8 +23,6 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using MathConst::MY_PI;
 
-static constexpr const char *command = "Fix inlet/flow";
-
 /* ---------------------------------------------------------------------- */
 
 FixInletFlow::FixInletFlow(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)

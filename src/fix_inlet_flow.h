@@ -42,6 +42,8 @@ class FixInletFlow : public Fix {
   void restart(char *) override;
 
  private:
+  static constexpr const char *command = "Fix inlet/flow";
+
   struct Particle {
     double x[3], radius;
     apf::Vec3 v, omega;

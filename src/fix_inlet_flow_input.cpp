@@ -1,5 +1,6 @@
 // The words of fix inlet/flow.
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
@@ -14,14 +15,13 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr const char *command = "Fix inlet/flow";
-
 // ID group inlet/flow PLANE POSITION FIELD-ID keywords
 void FixInletFlow::parse(int narg, char **arg)
 {
   if (narg < 6) utils::missing_cmd_args(FLERR, "fix inlet/flow", error);
   dim = parse_axis(3, arg, "plane", sign);
-  position = utils::numeric(FLERR, arg[4], false, lmp);
+  const ArgumentReader reader(lmp, command, arg);
+  position = reader.number(4, "position");
   field_id = arg[5];
   for (auto &side : window) side[0] = side[1] = NAN;
 
@@ -49,48 +49,39 @@ void FixInletFlow::parse(int narg, char **arg)
 int FixInletFlow::parse_number(int iarg, int narg, char **arg)
 {
   const std::string word = arg[iarg];
-  auto real = [&] {
+  const ArgumentReader reader(lmp, command, arg);
+  auto need_value = [&] {
     if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow " + word, error);
-    return utils::numeric(FLERR, arg[iarg + 1], false, lmp);
   };
-  auto integer = [&](int least) {
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow " + word, error);
-    const int value = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-    if (value < least)
-      error->all(FLERR, iarg + 1, "{} {} must be >= {}, got {}", command, word, least,
-                 arg[iarg + 1]);
-    return value;
+  auto real = [&](const Range &range) {
+    need_value();
+    return reader.number(iarg + 1, word, range);
   };
-  auto require = [&](bool good, const std::string &range) {
-    if (!good)
-      error->all(FLERR, iarg + 1, "{} {} must be {}, got {}", command, word, range, arg[iarg + 1]);
+  auto integer = [&](const Range &range) {
+    need_value();
+    return reader.integer(iarg + 1, word, range);
   };
 
   if (word == "concentration") {
-    concentration = real();
-    require(concentration > 0.0 && concentration <= apf::max_concentration,
-            fmt::format("in (0, {}], the volume of particles per volume", apf::max_concentration));
+    concentration = real(Range::above(0.0, apf::max_concentration));
   } else if (word == "number") {
-    number = real();
-    require(number > 0.0 && std::isfinite(number), "> 0");
+    number = real(Range::above(0.0));
   } else if (word == "every") {
-    every = integer(1);
+    every = integer(Range::from(1));
   } else if (word == "density") {
-    density = real();
-    require(density > 0.0 && std::isfinite(density), "> 0");
+    density = real(Range::above(0.0));
   } else if (word == "gap") {
-    gap = real();
-    require(gap >= 0.0 && std::isfinite(gap), ">= 0");
+    gap = real(Range::from(0.0));
   } else if (word == "attempts") {
-    attempts = integer(1);
+    attempts = integer(Range::from(1));
   } else if (word == "seed") {
-    const int seed = integer(1);
-    require(seed <= 900000000, "from 1 to 900000000");
-    random = std::make_unique<RanMars>(lmp, seed);
+    random = std::make_unique<RanMars>(lmp, integer(Range::from(1, 900000000)));
   } else if (word == "type") {
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow type", error);
+    need_value();
     type = utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ATOM, lmp);
-    require(type >= 1 && type <= atom->ntypes, fmt::format("from 1 to {}", atom->ntypes));
+    if (type < 1 || type > atom->ntypes)
+      error->all(FLERR, iarg + 1, "{} type must be from 1 to {}, got {}", command, atom->ntypes,
+                 arg[iarg + 1]);
   } else {
     error->all(FLERR, iarg,
                "{} keyword must be concentration, number, every, diameter, density, type, seed, "
@@ -121,11 +112,12 @@ int FixInletFlow::parse_window(int iarg, int narg, char **arg)
 {
   const int axes = domain->dimension - 1;
   if (iarg + 1 + 2 * axes > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow window", error);
+  const ArgumentReader reader(lmp, command, arg);
   for (int k = 0; k < axes; k++) {
     const int at = iarg + 1 + 2 * k;
     for (int end = 0; end < 2; end++)
       if (strcmp(arg[at + end], "NULL") != 0)
-        window[k][end] = utils::numeric(FLERR, arg[at + end], false, lmp);
+        window[k][end] = reader.number(at + end, "window bound");
     if (window[k][1] <= window[k][0])
       error->all(FLERR, at + 1, "{} window upper bound must be > lower bound {}, got {}", command,
                  arg[at], arg[at + 1]);
@@ -189,11 +181,9 @@ int FixInletFlow::parse_lognormal(int iarg, int narg, char **arg)
 int FixInletFlow::parse_list(int iarg, int narg, char **arg)
 {
   if (iarg + 4 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow diameter poly", error);
-  const std::string by = arg[iarg + 2];
-  if (by != "number" && by != "volume")
-    error->all(FLERR, iarg + 2, "{} diameter poly fractions must be by number or volume, got {}",
-               command, by);
-  const int n = utils::inumeric(FLERR, arg[iarg + 3], false, lmp);
+  const ArgumentReader reader(lmp, command, arg);
+  const bool by_volume = reader.choice(iarg + 2, "diameter poly", {"number", "volume"}) == 1;
+  const int n = reader.integer(iarg + 3, "diameter poly number of diameters");
   if (n < 1 || n > (narg - iarg - 4) / 2)
     error->all(FLERR, iarg + 3,
                "{} diameter poly takes from 1 diameter on, each with its fraction, got {} and {} "
@@ -204,16 +194,13 @@ int FixInletFlow::parse_list(int iarg, int narg, char **arg)
     d.push_back(positive(iarg + 4 + 2 * k, arg, "diameter"));
     fraction.push_back(positive(iarg + 5 + 2 * k, arg, "fraction"));
   }
-  diameters = apf::ListedDiameters::of(std::move(d), std::move(fraction), by == "volume");
+  diameters = apf::ListedDiameters::of(std::move(d), std::move(fraction), by_volume);
   return iarg + 4 + 2 * n;
 }
 
 double FixInletFlow::positive(int iarg, char **arg, const char *what)
 {
-  const double value = utils::numeric(FLERR, arg[iarg], false, lmp);
-  if (!(value > 0.0 && std::isfinite(value)))
-    error->all(FLERR, iarg, "{} {} must be > 0, got {}", command, what, arg[iarg]);
-  return value;
+  return ArgumentReader(lmp, command, arg).number(iarg, what, Range::above(0.0));
 }
 
 void FixInletFlow::check_order(int iarg, char **arg, double lo, double hi)
@@ -230,7 +217,7 @@ int FixInletFlow::parse_outlet(int iarg, int narg, char **arg)
   if (iarg + 3 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow outlet", error);
   Outlet outlet{};
   outlet.dim = parse_axis(iarg + 1, arg, "outlet", outlet.sign);
-  outlet.position = utils::numeric(FLERR, arg[iarg + 2], false, lmp);
+  outlet.position = ArgumentReader(lmp, command, arg).number(iarg + 2, "outlet position");
   if (outlet.dim == dim && outlet.sign * (position - outlet.position) >= 0.0)
     error->all(
         FLERR, iarg + 2,

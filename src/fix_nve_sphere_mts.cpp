@@ -149,8 +149,9 @@ void FixNVESphereMTS::choose_steps()
   for (int i = 0; i < atom->nlocal; i++) active_now += !foresight.free(i);
   run.active += active_now;
   run.atoms += atoms_now;
-  if (demand >= run.demand) {
-    run.demand = demand;
+  const double fineness = fixed_steps ? kappa_now : demand;
+  if (fineness >= run.finest) {
+    run.finest = fineness;
     run.mode = apf::mode_names[all.mode];
   }
 }

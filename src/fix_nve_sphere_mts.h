@@ -96,14 +96,15 @@ class FixNVESphereMTS : public Fix {
   struct Totals {    // of a run, for the summary
     bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0;
     int fewest = 0, most = 0;
-    double demand = 0.0;    // of the finest step
-    const char *mode = "none";
+    double finest = 0.0;        // largest 1/step that was asked for; at a given number, omega step
+    const char *mode = "no";    // of the contact it comes from
   } run_totals;
   bigint all_collision_steps = 0, late_before_restart = 0;
   bigint active_now = 0, atoms_now = 0;    // sub-stepped and all, of the last particle step
   double kappa_now = 0.0;
   double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 
+  void parse(int, char **);
   void find_slow_largest();
   void choose_steps();
   apf::Slow slow_of(int i, bool all = false) const;
@@ -119,6 +120,7 @@ class FixNVESphereMTS : public Fix {
   apf::ByTile form_tiles(std::vector<int> &moving, const std::vector<int> &held);
   void drift_free();
   bigint late_contacts() const;
+  std::string finest_step() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -2,6 +2,7 @@
 
 #include "fix_nve_sphere_mts.h"
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
@@ -38,58 +39,58 @@ FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
   comm_forward = ParticleLookAhead::forward_size;
   comm_reverse = ParticleLookAhead::reverse_size;
 
-  auto missing = [&](const std::string &word) {
-    utils::missing_cmd_args(FLERR, "fix nve/sphere/mts " + word, error);
+  parse(narg, arg);
+  if (fixed_steps) n_collision = fixed_steps;
+
+  FixNVESphereMTS::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixNVESphereMTS::parse(int narg, char **arg)
+{
+  const ArgumentReader reader(lmp, command, arg);
+  GivenOnce given(lmp, command);
+  auto need = [&](int words, const std::string &word) {
+    if (narg < words) utils::missing_cmd_args(FLERR, "fix nve/sphere/mts " + word, error);
   };
-  if (narg < 4) missing("collision");
+  need(4, "collision");
   if (strcmp(arg[3], "collision") != 0)
     error->all(FLERR, 3, "{} begins with keyword collision, got {}", command, arg[3]);
-  if (narg < 5) missing("collision");
+  given.add(arg[3], 3);
+  need(5, "collision");
   const std::string how = arg[4];
   int iarg = 5;
   if (how == "tolerance") {
-    if (narg < 6) missing("collision tolerance");
-    rule.tolerance = utils::numeric(FLERR, arg[iarg], false, lmp);
-    if (!(rule.tolerance > 0.0 && rule.tolerance <= 0.08))
-      error->all(FLERR, iarg, "{} collision tolerance must be in (0, 0.08], got {}", command,
-                 arg[iarg]);
-    iarg++;
+    need(6, "collision tolerance");
+    rule.tolerance = reader.number(iarg++, "collision tolerance", Range::above(0.0, 0.08));
   } else if (how != "auto") {
-    fixed_steps = utils::is_integer(how) ? utils::inumeric(FLERR, arg[4], false, lmp) : 0;
-    if (fixed_steps < 1 || fixed_steps > too_many)
+    const double n = utils::is_integer(how) ? std::strtod(arg[4], nullptr) : 0.0;
+    if (n < 1.0 || n > too_many)
       error->all(FLERR, 4,
                  "{} collision must be auto, tolerance T or a number of steps from 1 to {}, got {}",
-                 command, too_many, arg[4]);
+                 command, too_many, how);
+    fixed_steps = static_cast<int>(n);
   }
-  GivenOnce given(lmp, command);
   for (; iarg < narg; iarg += 2) {
     const std::string word = arg[iarg];
     given.add(word, iarg);
     if (word != "safety" && word != "fluid" && word != "lookahead")
       error->all(FLERR, iarg, "{} keyword must be safety, fluid or lookahead, got {}", command,
                  word);
-    if (iarg + 1 == narg) missing(word);
-    const char *value = arg[iarg + 1];
+    need(iarg + 2, word);
     if (word == "safety") {
-      rule.kappa = utils::numeric(FLERR, value, false, lmp);
-      if (!(rule.kappa > 0.0 && rule.kappa <= apf::largest_stable_kappa))
-        error->all(FLERR, iarg + 1, "{} safety must be in (0, {}], got {}", command,
-                   apf::largest_stable_kappa, value);
+      rule.kappa = reader.number(iarg + 1, word, Range::above(0.0, apf::largest_stable_kappa));
       if (how != "auto")
         error->all(FLERR, iarg, "{} safety goes with collision auto only, got collision {}",
                    command, how);
     } else if (word == "fluid") {
-      fluid_every = utils::inumeric(FLERR, value, false, lmp);
-      if (fluid_every < 1)
-        error->all(FLERR, iarg + 1, "{} fluid must be >= 1, got {}", command, value);
+      fluid_every = reader.integer(iarg + 1, word, Range::from(1));
     } else {
-      foresight.on = utils::logical(FLERR, value, false, lmp);
+      foresight.on = reader.yes(iarg + 1, word);
     }
   }
-  if (fixed_steps) n_collision = fixed_steps;
-
-  FixNVESphereMTS::grow_arrays(atom->nmax);
-  atom->add_callback(Atom::GROW);
 }
 
 /* ---------------------------------------------------------------------- */

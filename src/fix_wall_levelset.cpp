@@ -1,5 +1,6 @@
 #include "fix_wall_levelset.h"
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "comm.h"
 #include "compute_aggregate_contact.h"
@@ -80,9 +81,8 @@ void FixWallLevelset::parse_keywords(const std::vector<std::string> &names, int 
       motion.parse(command, narg, arg, iarg);
     } else if (strcmp(arg[iarg], "resolution") == 0) {
       if (narg < iarg + 2) utils::missing_cmd_args(FLERR, "fix wall/levelset resolution", error);
-      resolution = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-      if (!(resolution > 0.0))
-        error->all(FLERR, iarg + 1, "{} resolution must be > 0, got {}", command, arg[iarg + 1]);
+      resolution =
+          ArgumentReader(lmp, command, arg).number(iarg + 1, "resolution", Range::above(0.0));
       if (!grid) error->all(FLERR, iarg, "{} resolution is for walls from a file", command);
       iarg += 2;
     } else if (strcmp(arg[iarg], "film") == 0) {
@@ -156,19 +156,16 @@ void FixWallLevelset::check_particles()
                  command, id, sizes.largest_radius(), surface.radius);
   if (grid) check_grid(r, sizes.largest_radius());
   check_reach(r);
+  const apf::WetContact wet_contact{coefficient.bridge, coefficient.model};
   std::set<double> contact_radii;    // one message for all surfaces of the same
   for (const auto &surface : surfaces) {
     const auto bodies = bodies_at(surface, r, m);
     if (!contact_radii.insert(bodies.R).second) continue;
-    if (coefficient.model.adhesive())
-      overlap_at_rest =
-          std::max(overlap_at_rest, coefficient.model.normal(bodies.R).equilibrium_overlap() / r);
-    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), coefficient.model,
-                  coefficient.bridge, bodies.R, r);
+    overlap_at_rest = std::max(overlap_at_rest, apf::overlap_at_rest(wet_contact, bodies.R) / r);
+    check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), wet_contact, bodies.R, r);
     if (step_is_given() && m > 0.0)    // LAMMPS's own inserters do not tell the mass
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
-                     apf::stiffest_mode({coefficient.bridge, coefficient.model}, bodies, r),
-                     step_of_level());
+                     apf::stiffest_mode(wet_contact, bodies, r), step_of_level());
   }
 }
 

@@ -1,5 +1,6 @@
 #include "flow_grid.h"
 
+#include "argument_reader.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -21,19 +22,18 @@ static constexpr double repeat_tolerance = 1.0e-6;    // of the largest velocity
 int FlowGrid::Options::parse(LAMMPS *lmp, int iarg, int narg, char **arg)
 {
   const struct {
-    const char *keyword, *on, *off;
-    bool &value;
-  } table[] = {{"loop", "yes", "no", loop},
-               {"outside", "clamp", "error", clamp},
-               {"wall", "reconstruct", "plain", reconstruct}};
+    const char *keyword;
+    const char *words[2];
+    bool &value;    // set by the first word
+  } table[] = {{"loop", {"yes", "no"}, loop},
+               {"outside", {"clamp", "error"}, clamp},
+               {"wall", {"reconstruct", "plain"}, reconstruct}};
   for (const auto &row : table) {
     if (strcmp(arg[iarg], row.keyword) != 0) continue;
     if (iarg + 2 > narg)
       utils::missing_cmd_args(FLERR, std::string("fix flow/field ") + row.keyword, lmp->error);
-    row.value = strcmp(arg[iarg + 1], row.on) == 0;
-    if (!row.value && strcmp(arg[iarg + 1], row.off) != 0)
-      lmp->error->all(FLERR, iarg + 1, "Fix flow/field {} must be {} or {}, got {}", row.keyword,
-                      row.on, row.off, arg[iarg + 1]);
+    const ArgumentReader reader(lmp, "Fix flow/field", arg);
+    row.value = reader.choice(iarg + 1, row.keyword, {row.words[0], row.words[1]}) == 0;
     return iarg + 2;
   }
   return iarg;

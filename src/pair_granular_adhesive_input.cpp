@@ -170,11 +170,11 @@ double PairGranularAdhesive::init_one(int i, int j)
     const std::string who = fmt::format("Pair granular/adhesive types {} {}", i, j);
     const double a = sizes.radius_min[i], b = sizes.radius_min[j];
     const double A = sizes.radius_max[i], B = sizes.radius_max[j];
-    const auto &bridge = coefficients[i][j].bridge;
+    const apf::WetContact wet{coefficients[i][j].bridge, model};
     if (a / B < b / A)
-      check_overlap(lmp, who, model, bridge, a * B / (a + B), a);
+      check_overlap(lmp, who, wet, a * B / (a + B), a);
     else
-      check_overlap(lmp, who, model, bridge, A * b / (A + b), b);
+      check_overlap(lmp, who, wet, A * b / (A + b), b);
   }
   return ri + rj + reach;
 }

@@ -1,5 +1,6 @@
 #include "wall_bridges.h"
 
+#include "argument_reader.h"
 #include "atom.h"
 #include "domain.h"
 #include "error.h"
@@ -23,9 +24,7 @@ WallBridges::WallBridges(LAMMPS *lmp, FixWallLevelset *fix) :
 void WallBridges::parse_film(const char *command, int narg, char **arg, int &iarg)
 {
   if (narg < iarg + 2) utils::missing_cmd_args(FLERR, "fix wall/levelset film", error);
-  if (!utils::is_double(arg[iarg + 1]))
-    error->all(FLERR, iarg + 1, "{} film must be a number, got {}", command, arg[iarg + 1]);
-  first_film = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+  first_film = ArgumentReader(lmp, command, arg).number(iarg + 1, "film");
   const double most = std::max(std::max(domain->prd[0], domain->prd[1]), domain->prd[2]);
   if (!(first_film >= 0.0 && first_film <= most))
     error->all(FLERR, iarg + 1,

@@ -1,5 +1,6 @@
 #include "wall_motion.h"
 
+#include "argument_reader.h"
 #include "domain.h"
 #include "error.h"
 #include "input.h"
@@ -17,9 +18,8 @@ void WallMotion::parse(const char *command_in, int narg, char **arg, int &iarg)
   command = command_in;
   const std::string where = "fix wall/levelset move";
   if (narg < iarg + 2) utils::missing_cmd_args(FLERR, where, error);
-  const bool rotates = strcmp(arg[iarg + 1], "rotate") == 0;
-  if (!rotates && strcmp(arg[iarg + 1], "linear") != 0)
-    error->all(FLERR, iarg + 1, "{} move must be linear or rotate, got {}", command, arg[iarg + 1]);
+  const ArgumentReader reader(lmp, command, arg);
+  const bool rotates = reader.choice(iarg + 1, "move", {"linear", "rotate"}) == 1;
   bool &given = rotates ? turned : moved;
   if (given) error->all(FLERR, iarg, "{} move {} is given twice", command, arg[iarg + 1]);
   given = pose.moves = true;
@@ -29,7 +29,7 @@ void WallMotion::parse(const char *command_in, int narg, char **arg, int &iarg)
     utils::missing_cmd_args(FLERR, where + (rotates ? " rotate" : " linear"), error);
   if (rotates) {
     double x[3];
-    for (double &component : x) component = utils::numeric(FLERR, arg[iarg++], false, lmp);
+    for (double &component : x) component = reader.number(iarg++, "move rotate centre");
     pose.set_centre({x[0], x[1], x[2]});
   }
   for (int c = 0; c < 3; c++, iarg++) {
@@ -37,7 +37,7 @@ void WallMotion::parse(const char *command_in, int narg, char **arg, int &iarg)
     if (utils::strmatch(arg[iarg], "^v_"))
       speed.variable = arg[iarg] + 2;
     else
-      speed.value = utils::numeric(FLERR, arg[iarg], false, lmp);
+      speed.value = reader.number(iarg, rotates ? "move rotate" : "move linear");
     varies = varies || !speed.variable.empty();
     const bool in_plane = rotates == (c == 2);
     if (domain->dimension == 2 && !in_plane && (speed.value != 0.0 || !speed.variable.empty()))

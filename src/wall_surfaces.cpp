@@ -1,5 +1,6 @@
 #include "wall_surfaces.h"
 
+#include "argument_reader.h"
 #include "domain.h"
 #include "error.h"
 #include "given_once.h"
@@ -24,9 +25,7 @@ std::vector<apf::Surface> LAMMPS_NS::parse_surfaces(LAMMPS *lmp, const char *com
     iarg++;
     return word[0] - 'x';
   };
-  auto number = [&]() {
-    return utils::numeric(FLERR, arg[iarg++], false, lmp);
-  };
+  const ArgumentReader reader(lmp, command, arg);
 
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix wall/levelset", lmp->error);
   const std::string shape = arg[iarg++];
@@ -44,7 +43,7 @@ std::vector<apf::Surface> LAMMPS_NS::parse_surfaces(LAMMPS *lmp, const char *com
       if (strcmp(arg[iarg], "NULL") == 0)
         iarg++;
       else
-        surfaces.push_back(apf::Surface::plane(dim, number(), side));
+        surfaces.push_back(apf::Surface::plane(dim, reader.number(iarg++, "plane"), side));
     }
     if (surfaces.empty())
       lmp->error->all(FLERR, first, "{} plane needs LO or HI, both are NULL", command);
@@ -57,16 +56,13 @@ std::vector<apf::Surface> LAMMPS_NS::parse_surfaces(LAMMPS *lmp, const char *com
     if (lmp->domain->dimension == 2 && dim != 2)
       lmp->error->all(FLERR, iarg - 1, "{} cylinder axis must be z in 2 dimensions, got {}",
                       command, arg[iarg - 1]);
-    const double c1 = number(), c2 = number(), radius = number();
-    if (radius <= 0.0)
-      lmp->error->all(FLERR, iarg - 1, "{} cylinder radius must be > 0, got {}", command,
-                      arg[iarg - 1]);
-    const std::string side = arg[iarg++];
-    if (side != "inside" && side != "outside")
-      lmp->error->all(FLERR, iarg - 1,
-                      "{} cylinder side of the fluid must be inside or outside, got {}", command,
-                      side);
-    surfaces.push_back(apf::Surface::cylinder(dim, c1, c2, radius, side == "inside" ? -1.0 : 1.0));
+    const double c1 = reader.number(iarg, "cylinder axis");
+    const double c2 = reader.number(iarg + 1, "cylinder axis");
+    const double radius = reader.number(iarg + 2, "cylinder radius", Range::above(0.0));
+    const int outside =
+        reader.choice(iarg + 3, "cylinder side of the fluid", {"inside", "outside"});
+    iarg += 4;
+    surfaces.push_back(apf::Surface::cylinder(dim, c1, c2, radius, outside ? 1.0 : -1.0));
   } else if (shape == "file") {
     if (narg < iarg + 1) utils::missing_cmd_args(FLERR, "fix wall/levelset file", lmp->error);
     const int word = iarg++;

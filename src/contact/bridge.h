@@ -74,6 +74,9 @@ struct BridgeModel {
   bool present() const { return volume_ratio > 0.0; }
   bool inventory() const { return intake > 0.0; }
 
+  // (45) at H = 1                                                                    [force]
+  double largest_pull(double R) const { return 4.0 * pi * R * sigma * std::cos(theta); }
+
   // of a particle's own liquid, l pi d^3 / 6
   double liquid_of(double radius) const
   {
@@ -157,6 +160,13 @@ struct WetContact {
   const ContactModel &dry;
 };
 
+// Overlap of two bodies at rest, under their adhesion and the largest pull of a bridge; 0 without
+// either.                                                                             [length]
+inline double overlap_at_rest(const WetContact &wet, double R)
+{
+  return wet.dry.normal(R).overlap_under(wet.liquid.largest_pull(R));
+}
+
 // Numbers of a bridge that do not depend on its volume, with those of the dry contact beside it.
 // All roots are taken here, once. Of doubles for one bridge, of Packs (pack.h) for a block of them.
 template <class Real> struct BridgeConstantsOf {
@@ -165,7 +175,7 @@ template <class Real> struct BridgeConstantsOf {
   Real R;                       // effective radius                                        [length]
   Real m, inv_m;                // effective mass, and 1 / m                       [mass], [1/mass]
   Real h_min;                   // least gap                                               [length]
-  Real pull;                    // 4 pi R sigma cos(theta)                                  [force]
+  Real pull;                    // BridgeModel::largest_pull()                              [force]
   Real drag;                    // 6 pi mu R^2                                         [force time]
   Real inv_speed;               // mu / sigma: Ca = inv_speed |dh/dt|                 [time/length]
   Real film;         // resistance to sliding / (8/15 ln(R/h) + 0.9588); 0 = none       [mass/time]
@@ -233,7 +243,7 @@ struct BridgeConstants : BridgeConstantsOf<double>, BridgeVolumeOf<double> {
     c.m = bodies.m;
     c.inv_m = 1.0 / bodies.m;
     c.h_min = liquid.roughness * R;
-    c.pull = 4.0 * pi * R * liquid.sigma * std::cos(liquid.theta);
+    c.pull = liquid.largest_pull(R);
     c.drag = 6.0 * pi * liquid.mu * R * R;
     c.inv_speed = liquid.mu / liquid.sigma;
     c.film = liquid.tangential ? 6.0 * pi * liquid.mu * R : 0.0;

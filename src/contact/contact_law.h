@@ -159,6 +159,23 @@ APF_INLINE Real stable_dashpot(const Real &eta, const Real &k, const Real &m, do
   return smaller(eta, larger(of_mass * m - of_spring * k, 0.0));
 }
 
+// Normal force of damping, and with the elastic one, at s = sqrt(a/R); > 0 repels. mass: that the
+// contact has of its two bodies; velocities are half a step old.
+template <class Constants, class Real>
+APF_INLINE Real damping_at(const Constants &c, const Real &s, const Real &closing_speed,
+                           const Real &mass, double step)
+{
+  const Real eta = lagging_dashpot(c, s, 0.5 * step);
+  return stable_dashpot(eta, c.kn * (s * s), mass, step) * closing_speed;
+}
+template <class Constants, class Real>
+APF_INLINE Real force_at(const Constants &c, const Real &s, const Real &closing_speed,
+                         const Real &mass, double step)
+{
+  const Real s3 = s * s * s;
+  return c.K * s3 * (s3 - c.neck6) + damping_at(c, s, closing_speed, mass, step);
+}
+
 // The whole law. With times.advance = 0 the memory is to be left as it was.
 template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
 APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Real> &c,

@@ -42,6 +42,15 @@ struct JKR {
   {
     return equilibrium_radius() * equilibrium_radius() / (3.0 * R);
   }
+  // Overlap at which the force balances a load: > 0 presses the bodies together, < 0 pulls them
+  // apart, down to -F_C. force = load of eq (39) is quadratic in s^3,
+  //   s^3 = 3 m^3 + sqrt(9 m^6 + load/K),
+  // with the sign of the branch that a load-controlled contact can be on.
+  double overlap_under(double load) const
+  {
+    const double half = 3.0 * neck3();
+    return overlap(std::cbrt(half + std::sqrt(std::max(half * half + load / K, 0.0))));
+  }
 
   // Of the solver below: neck, or a length that is nothing beside any s; and 1 / (R unit^4).
   double root_unit() const { return std::max(neck, 1.0e-20); }
@@ -50,6 +59,13 @@ struct JKR {
 
   double overlap(double s) const { return R * s * (s * s * s - 4.0 * neck3()); }
   double force(double s) const { return K * s * s * s * (s * s * s - 6.0 * neck3()); }
+
+  // d(force)/d(overlap); has a pole at the end of the neck, s = m
+  double stiffness(double s) const
+  {
+    const double s3 = s * s * s, m3 = neck3();
+    return 1.5 * K / R * s * s * (s3 - 3.0 * m3) / (s3 - m3);
+  }
 
   // integral of force over overlap from the (virtual) state a = 0; only differences have a meaning
   APF_INLINE double energy(double s) const

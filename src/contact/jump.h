@@ -5,8 +5,21 @@
 // velocity. When the jump came is known from the overlap and the speed, so the kick of the step in
 // which it is seen gets the impulse that is missing, or gives back what was too much.
 //
-//   touch, a time t ago:   force x (t + step/2) is due, force x step is given
-//   end,   a time t ago:   force x (step/2 - t) is due, nothing is given
+// How much is that? Leapfrog steps of a smooth force do not keep the energy of the law but one that
+// is close to it (backward analysis; Hairer, Lubich, Wanner, doi:10.1007/3-540-30666-8, IX): with
+// the overlap x, its speed v, the elastic force F, its slope k = dF/dx and the time step h,
+//
+//   (1/2) m v^2 + U + h^2 (k v^2 / 12 - F^2 / (24 m))    v and x at the same time
+//   (1/2) m v^2 + U - h^2 (k v^2 / 24 - F^2 / (12 m))    v, and x half a step after its step's end
+//
+// Outside of contacts both are (1/2) m v^2. So the speed after the touch is the one with which the
+// first of them is what it was before, and the speed after the end is given by the second, half a
+// step before the last position with a contact: k has a pole at the end of the neck, too close to
+// it the series says nothing. Damping is not in an energy: it gets what is due by its value at the
+// jump, a time t ago:
+//
+//   touch:   force x (t + step/2) is due, force x step is given
+//   end:     force x (step/2 - t) is due, nothing is given
 //
 // Half of the kick may belong to the next run; who looks at the contacts again finds no trace of
 // it, so it is noted.
@@ -19,16 +32,52 @@
 
 namespace apf {
 
-// normal force at s, elastic and damping, > 0 repels; s = sqrt(a/R), mass: that the contact has of
-// its two bodies
-template <class Constants, class Real>
-APF_INLINE Real force_at(const Constants &c, const Real &s, const Real &closing_speed,
-                         const Real &mass, double step)
-{
-  const Real s2 = s * s, s3 = s2 * s;
-  const Real eta = stable_dashpot(lagging_dashpot(c, s, 0.5 * step), c.kn * s2, mass, step);
-  return c.K * s3 * (s3 - c.neck6) + eta * closing_speed;
-}
+// The elastic law of a contact, and the mass that it moves.
+struct Spring {
+  JKR law;
+  double mass;
+
+  Spring(const ContactConstants &c, double mass) :
+      law{c.R, c.K, c.neck6 > 0.0 ? c.root_unit : 0.0}, mass(mass)
+  {
+  }
+  double energy(double s) const { return law.energy(s); }
+  // what leapfrog steps keep beside (1/2) m v^2 and U
+  double with_position(double s, double v, double step) const
+  {
+    const double F = law.force(s);
+    return step * step * (law.stiffness(s) * v * v / 12.0 - F * F / (24.0 * mass));
+  }
+  double between_positions(double s, double v, double step) const
+  {
+    const double F = law.force(s);
+    return step * step * (F * F / (12.0 * mass) - law.stiffness(s) * v * v / 24.0);
+  }
+  // the speed that is left of v when `rise` is taken from the kinetic energy; 0 if there is less
+  double speed_after(double v, double rise) const
+  {
+    return std::sqrt(std::max(v * v - 2.0 * rise / mass, 0.0));
+  }
+};
+
+// What led two bodies to where they are, in a time step at constant velocities.
+struct LastStep {
+  double overlap;    // now                                                              [length]
+  double moved;      // by which it grew                                                 [length]
+
+  // turning: see ContactBodies
+  template <class Row>
+  static LastStep of(const Row &i, const Row &j, const ContactConstants &c, double step)
+  {
+    const auto now = Approach::of(i, j, c.radius_sum);
+    const double distance = now.gap + c.radius_sum;
+    const double speed = now.closing_speed, moved = step * speed;
+    const double across2 = now.relative_speed * now.relative_speed - speed * speed;
+    const double more = moved * (2.0 * distance + moved) + c.turning * step * step * across2;
+    const double before = std::sqrt(std::max(distance * distance + more, 0.0));
+    return {-now.gap, more / (before + distance)};
+  }
+};
 
 // What a body's load has beside the forces of its contacts.
 struct DueLoad {
@@ -61,13 +110,18 @@ void correct_touch(const ContactList &list, int k, Row *rows, double step,
                    std::vector<DueLoad> &due)
 {
   const auto c = list.constants_of(k);
-  const auto approach = Approach::of(rows[list.i[k]], rows[list.j[k]], c.radius_sum);
-  const double moved = step * approach.closing_speed;
-  if (!(moved > 0.0) || -approach.gap > moved) return;     // it was there before: no jump
-  const double touching = std::cbrt(4.0) * c.root_unit;    // where the overlap is 0
-  const double share = -approach.gap / moved - 0.5;
+  const auto last = LastStep::of(rows[list.i[k]], rows[list.j[k]], c, step);
+  if (!(last.moved > 0.0) || last.overlap > last.moved) return;    // it was there before: no jump
+  const Spring spring(c, list.mode(k).mass);
+  const double v = last.moved / step, s = spring.law.root(last.overlap);
+  const double touching = spring.law.root(0.0);
+  const double rise = spring.energy(s) - spring.energy(touching) + spring.with_position(s, v, step);
+  // half of the step's kick comes after this position, and is right as it is
+  const double elastic =
+      2.0 * rise / (v + spring.speed_after(v, rise)) / step - 0.5 * spring.law.force(s);
+  const double share = last.overlap / last.moved - 0.5;
   push_apart(rows, list.i[k], list.j[k],
-             share * force_at(c, touching, approach.closing_speed, c.crowd_mass, step), due);
+             elastic + share * damping_at(c, touching, v, c.crowd_mass, step), due);
 }
 
 // Contact k has just ended.
@@ -75,13 +129,20 @@ template <class Row>
 void correct_end(const ContactList &list, int k, Row *rows, double step, std::vector<DueLoad> &due)
 {
   const auto c = list.constants_of(k);
-  const auto approach = Approach::of(rows[list.i[k]], rows[list.j[k]], c.radius_sum);
-  const double moved = -step * approach.closing_speed;
-  const double beyond = c.break_overlap + approach.gap;
-  if (!(moved > 0.0) || beyond > moved) return;
-  const double s = jkr_root(c.break_overlap, c.root_scale, c.root_unit);
+  const auto last = LastStep::of(rows[list.i[k]], rows[list.j[k]], c, step);
+  const double beyond = c.break_overlap - last.overlap;
+  if (!(last.moved < 0.0) || beyond > -last.moved) return;
+  const Spring spring(c, list.mode(k).mass);
+  const double v = -last.moved / step, position = last.overlap - last.moved;
+  // the step before, without the kick between
+  const double before = v - step * spring.law.force(spring.law.root(position)) / spring.mass;
+  const double s = spring.law.root(position + 0.5 * step * before);
+  const double ending = spring.law.root(c.break_overlap);
+  const double rise =
+      spring.energy(ending) - spring.energy(s) - spring.between_positions(s, before, step);
+  const double elastic = spring.mass * (spring.speed_after(before, rise) - v) / step;
   push_apart(rows, list.i[k], list.j[k],
-             (0.5 - beyond / moved) * force_at(c, s, approach.closing_speed, c.crowd_mass, step),
+             elastic + (0.5 + beyond / last.moved) * damping_at(c, ending, -v, c.crowd_mass, step),
              due);
 }
 

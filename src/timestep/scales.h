@@ -61,7 +61,7 @@ inline double gradient_reynolds(double vorticity, double d, double density, doub
 struct ContactScales {
   double contact_radius;    // a0 at rest                                           [length]
   double neck_length;       // delta_C                                              [length]
-  double rest_overlap;      // 0 without adhesion                                   [length]
+  double rest_overlap;      // by adhesion and a bridge                             [length]
   double impact_overlap;    // of an impact at the speed U, Hertz                   [length]
   double pulloff_force;     // F_C                                                   [force]
   double sticking_speed;    // V_s: an undamped impact below it sticks            [velocity]
@@ -76,7 +76,7 @@ struct ContactScales {
     c.pulloff_force = normal.pulloff_force();
     c.neck_length = normal.pulloff_overlap();
     c.contact_radius = normal.equilibrium_radius();
-    c.rest_overlap = normal.equilibrium_overlap();
+    c.rest_overlap = overlap_at_rest(wet, bodies.R);
     // (1/2) m V_s^2 = work from first touch (s^3 = 4 m^3) to the end of the neck
     const double touch = std::cbrt(4.0) * normal.neck;
     const double end = normal.root(-wet.dry.neck_share() * normal.pulloff_overlap());

@@ -47,6 +47,17 @@ struct ClassicalJKR {
   {
     return 4.0L * E * a * a * a / (3.0L * R) - sqrtl(8.0L * M_PIl * w * E * a * a * a);
   }
+  // of a contact that bears a load: beyond the radius at which the force is least, -F_C
+  long double overlap_under(long double load) const
+  {
+    long double low = cbrtl(9.0L * M_PIl * w * R * R / (8.0L * E)), high = low;    // dF/da = 0
+    while (force(high) < load) high *= 2.0L;
+    for (int n = 0; n < 200; n++) {
+      const long double mid = 0.5L * (low + high);
+      (force(mid) < load ? low : high) = mid;
+    }
+    return overlap(0.5L * (low + high));
+  }
   long double contact_radius(long double delta) const
   {
     long double low = cbrtl(R * R * M_PIl * w / (8.0L * E)), high = low;    // d overlap/da = 0
@@ -156,6 +167,29 @@ TEST(JKR, largest_pull_is_the_pulloff_force)
     }
     EXPECT_NEAR(least, -1.0, 1e-8) << unit.name;
     EXPECT_NEAR(where, -0.480750, 1e-4) << unit.name;
+  }
+}
+
+// From the largest pull to loads that make adhesion count for little.
+TEST(JKR, overlap_under_a_load_is_where_the_force_balances_it)
+{
+  for (const Scale &unit : scales) {
+    const JKR law = unit.law();
+    const ClassicalJKR classical{unit.R, unit.E, 2.0 * unit.gamma};
+    for (const double load : {-0.999, -0.9, -5.0 / 9.0, -0.1, 0.0, 0.1, 1.0, 10.0, 1e3, 1e6}) {
+      const double known = classical.overlap_under(load * unit.F_C()) / unit.delta_C();
+      EXPECT_NEAR(law.overlap_under(load * unit.F_C()) / unit.delta_C() / known, 1.0, 1e-11)
+          << unit.name << " at " << load;
+    }
+    EXPECT_NEAR(law.overlap_under(0.0) / unit.delta_C(), 1.211414, 5e-7) << unit.name;
+    EXPECT_NEAR(law.overlap_under(0.0) / law.equilibrium_overlap(), 1.0, 1e-14) << unit.name;
+    // there as good as the root of rounding
+    EXPECT_NEAR(law.overlap_under(-unit.F_C()) / unit.delta_C(), -0.480750, 6e-7) << unit.name;
+
+    const JKR bare = JKR::make(unit.R, unit.E, 0.0);
+    EXPECT_EQ(bare.overlap_under(0.0), 0.0) << unit.name;
+    for (const double overlap : {1e-6 * unit.R, 0.3 * unit.R})
+      EXPECT_NEAR(bare.overlap_under(hertz_force(unit.R, unit.E, overlap)) / overlap, 1.0, 1e-13);
   }
 }
 

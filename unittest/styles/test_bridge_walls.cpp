@@ -109,6 +109,58 @@ TEST(BridgeWalls, gaps_must_be_wider_than_particles_with_bridges)
   EXPECT_NE(text.find("where liquid bridges may hold particles"), std::string::npos) << text;
 }
 
+// What a run says of a sphere that touches a wall of E = 50 whose liquid pulls it in to an overlap
+// at rest of `rest`, put there with one of `depth`, both in radii: 4 pi R sigma cos(theta) is the
+// force of Hertz or JKR at that overlap.
+std::string words_of_a_soft_wall(double gamma, double rest, double depth)
+{
+  Liquid liquid = at_radius(0.5);
+  liquid.sigma =
+      JkrCurve{0.5, 50.0, gamma}.force(0.5 * rest) / (4.0 * pi * 0.5 * std::cos(liquid.angle()));
+  Simulation sim;
+  Scene scene;
+  scene.boundary = "f p p";
+  scene.style = none + "fix w all wall/levelset plane x 1 NULL jkr 100 0 " + digits(gamma) + " " +
+      liquid.words() + "\n";
+  build(sim, {{1.0 + 0.5 * (1.0 - depth), 4.0, 4.0}}, scene);
+  return rest > 0.5 ? sim.error_of("run 0") : log_of(sim, "run 0\n");
+}
+bool says(const std::string &text, const std::string &words)
+{
+  return text.find(words) != std::string::npos;
+}
+
+// warning from 5 %, error from 50 %
+TEST(BridgeWalls, pull_of_the_liquid_counts_in_the_overlap_at_rest)
+{
+  const std::string warning = "WARNING: Fix wall/levelset w: particles at rest overlap by ";
+  for (const double gamma : {0.0, 0.02}) {
+    SCOPED_TRACE(gamma);
+    EXPECT_FALSE(says(words_of_a_soft_wall(gamma, 0.0498, 0.01), "at rest overlap"));
+    const auto some = words_of_a_soft_wall(gamma, 0.0502, 0.01);
+    EXPECT_TRUE(says(some, warning + "0.0502 of the smaller radius")) << some;
+    const auto much = words_of_a_soft_wall(gamma, 0.498, 0.01);
+    EXPECT_TRUE(says(much, warning + "0.498 of the smaller radius")) << much;
+    const auto error = words_of_a_soft_wall(gamma, 0.502, 0.01);
+    EXPECT_TRUE(says(error, "at rest overlap by 0.502 of the smaller radius")) << error;
+    EXPECT_TRUE(says(error, "above 0.5 the contact law has no meaning")) << error;
+  }
+}
+
+// Twice the overlap at rest is borne in silence, whatever brings that about.
+TEST(BridgeWalls, particles_may_begin_as_deep_as_the_liquid_pulls_them)
+{
+  for (const double gamma : {0.0, 0.02}) {
+    SCOPED_TRACE(gamma);
+    EXPECT_FALSE(says(words_of_a_soft_wall(gamma, 0.15, 0.298), "begin inside the wall"));
+    const auto text = words_of_a_soft_wall(gamma, 0.15, 0.302);
+    EXPECT_TRUE(says(text,
+                     "begin inside the wall and will be shot out of it: 1 (IDs 1), up to "
+                     "0.302 of their radius"))
+        << text;
+  }
+}
+
 // Fix freeze says that forces do not move a particle: the viscous force of its bridge to a wall is
 // that of the speed at which one of the two is made to move, at steps in which it would be stopped.
 TEST(BridgeWalls, frozen_particle_feels_the_speed_that_it_or_the_wall_is_given)

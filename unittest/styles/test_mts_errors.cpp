@@ -32,22 +32,22 @@ TEST(MtsErrors, words_of_the_command)
       {"collision auto safety 0", name, "safety must be in (0, 0.8], got 0"},
       {"collision auto safety -0.1", name, "safety must be in (0, 0.8], got -0.1"},
       {"collision auto safety 0.81", name, "safety must be in (0, 0.8], got 0.81"},
-      {"collision auto safety nan", "nan"},
-      {"collision auto safety much", "floating point", "much"},
+      {"collision auto safety nan", name, "safety must be a number in (0, 0.8], got nan"},
+      {"collision auto safety much", name, "safety must be a number in (0, 0.8], got much"},
       {"collision 8 safety 0.3", name, "safety goes with collision auto only, got collision 8"},
       {"collision tolerance 0.01 safety 0.3", name, "safety goes with", "got collision tolerance"},
       {"collision tolerance", missing + " collision", argument},
       {"collision tolerance 0", name, "tolerance must be in (0, 0.08], got 0"},
       {"collision tolerance 0.09", name, "tolerance must be in (0, 0.08], got 0.09"},
-      {"collision tolerance small", "floating point", "small"},
+      {"collision tolerance small", name,
+       "collision tolerance must be a number in (0, 0.08], got small"},
       {"collision auto fluid", missing + " fluid", argument},
       {"collision auto fluid 0", name, "fluid must be >= 1, got 0"},
-      {"collision auto fluid 1.5", "integer", "1.5"},
+      {"collision auto fluid 1.5", name, "fluid must be an integer >= 1, got 1.5"},
       {"collision auto lookahead", missing + " lookahead", argument},
-      {"collision auto lookahead maybe", "boolean", "maybe"},
+      {"collision auto lookahead maybe", name, "lookahead must be yes or no, got maybe"},
       {"collision auto 8", name, "keyword must be safety, fluid or lookahead, got 8"},
-      {"collision 8 collision 9", name,
-       "keyword must be safety, fluid or lookahead, got collision"},
+      {"collision 8 collision 9", name, "keyword collision is given twice"},
   };
   for (const auto &row : table) {
     Simulation sim;
@@ -106,14 +106,14 @@ TEST(MtsErrors, forces_that_are_set_give_a_warning)
 }
 
 // Of a pair that stays together, 5 particle steps of 8 collision steps; of a bridge alone, which
-// asks for 14; without contacts no mode sets the step.
+// asks for 14; without contacts no mode sets the step, and steps are in no period.
 TEST(MtsErrors, summary_at_the_end_of_a_run)
 {
   Simulation pair;
   build(pair, {{3.0, 4.0, 4.0}, {3.99, 4.0, 4.0}, {6.0, 6.0, 6.0}});
   expect_words(log_of(pair, start + "run 5\n"),
                {"nve: 5 particle steps", "40 collision steps, 8 to 8 in a particle step",
-                "sub-stepped 66.7 %", "mode of contacts; contacts found late 0"});
+                "sub-stepped 66.7 %", "in its period; contacts found late 0"});
   Simulation wet;
   build(wet, {{3.0, 4.0, 4.0}, {3.995, 4.0, 4.0}});
   expect_words(log_of(wet,
@@ -124,6 +124,30 @@ TEST(MtsErrors, summary_at_the_end_of_a_run)
   build(none, {{2.0, 4.0, 4.0}, {6.0, 4.0, 4.0}});
   expect_words(log_of(none, "fix nve all nve/sphere/mts collision auto\nrun 1\n"),
                {"sub-stepped 0.0 %", "finest step set by no mode"});
+  expect_words(log_of(none, "unfix nve\n" + start + "run 1\n"),
+               {"sub-stepped 0.0 % of the particles; no contacts; contacts found late 0"});
+}
+
+// A pair at rest: sqrt(3.5 k_T/m) with k_T = 8 G a0 is its highest frequency, and the step is the
+// N-th part of the timestep.
+TEST(MtsErrors, summary_tells_what_a_number_of_steps_is_worth)
+{
+  const Material material;
+  const auto curve = material.pair();
+  const double omega = std::sqrt(3.5 * 8.0 * material.G_eff() * curve.a0() / (pi / 12.0));
+  for (const int n : {3, 12}) {
+    Simulation sim;
+    build(sim, {{3.0, 4.0, 4.0}, {4.0 - curve.delta_eq(), 4.0, 4.0}});
+    const auto text =
+        log_of(sim, "fix nve all nve/sphere/mts collision " + std::to_string(n) + "\nrun 2\n");
+    const std::string before = "stiffest mode of contacts tangential, ";
+    const auto at = text.find(before);
+    ASSERT_NE(at, std::string::npos) << text;
+    EXPECT_NE(text.find(" collision steps in its period; contacts found late 0"),
+              std::string::npos);
+    const double said = std::stod(text.substr(at + before.size()));
+    EXPECT_NEAR(said * omega * dt / n / (2.0 * pi), 1.0, 0.006) << text;
+  }
 }
 
 TEST(MtsErrors, skin_that_is_too_thin_for_what_it_must_see)

@@ -1,6 +1,7 @@
 // A keyword that is given twice, of which one value would count for nothing: an error that points
 // at the second one. Those that add something each time stay as they are.
 
+#include "points_at.h"
 #include "simulation.h"
 #include "temporary_file.h"
 
@@ -21,16 +22,6 @@ fix air all flow/field uniform 1 0 0 density 1 viscosity 1
 )";
 const std::string law = " jkr 1e6 0.3 0.01 ", floor_at_0 = "fix w all wall/levelset plane z 0 NULL";
 const std::string in = "fix in all inlet/flow x 1 air number 1 diameter 1 density 1 type 1 seed 1";
-
-// whether the error, which shows the command and underlines a word of it, does so at its last
-// `word`
-bool points_at_last(const std::string &error, const std::string &word)
-{
-  const size_t mark = error.find('^');
-  if (mark == std::string::npos) return false;
-  const size_t below = error.rfind('\n', mark) + 1, line = error.rfind('\n', below - 2) + 1;
-  return error.substr(line, below - line).rfind(word) == mark - below;
-}
 
 void expect_second_is_refused(const std::string &scene, const std::string &command,
                               const std::string &keyword)
@@ -91,6 +82,7 @@ TEST(RepeatedKeywords, of_fixes_and_of_advice)
       {"cunningham", drag + "cunningham 1 cunningham 2"},
       {"feedback", drag + "feedback 3 3 3 feedback no"},
       {"safety", "fix m all nve/sphere/mts collision auto safety 0.1 fluid 2 safety 0.2"},
+      {"collision", "fix m all nve/sphere/mts collision 20 collision 30"},
       {"fluid", "fix m all nve/sphere/mts collision 5 fluid 2 fluid 2"},
       {"lookahead", "fix m all nve/sphere/mts collision 5 lookahead yes lookahead no"},
       {"number", in + " number 2"},

@@ -75,6 +75,17 @@ class Counts(unittest.TestCase):
         self.assertEqual(words[1], "1.4", "23 instructions for 16")
         self.assertEqual(words[-4:], ["0.6", "5.0", "2.0", "8.0"], "25 cycles for 16 at 2.5 GHz")
 
+    def test_table_can_be_read(self):
+        times = {"2D/rolling/avx512": (5.0, 0.02), "2D/rolling/scalar": (60.0, 0.01)}
+        rows = [roofline.line(name, [NAME + LOOP], times, 2.5) for name in times]
+        self.assertEqual(roofline.read_table("\n".join(roofline.HEAD + rows)),
+                         {"2D/rolling/avx512": (0.6, 5.0, 0.02), "2D/rolling/scalar": (None, 60.0, 0.01)})
+        self.assertEqual(roofline.read_table(roofline.line("2D/rolling/avx512", [NAME + LOOP], {}, 2.5)), {})
+
+    def test_kernel_without_adhesion(self):
+        function = (NAME + LOOP).replace("true, true, false, true", "false, true, false, false")
+        self.assertEqual(roofline.line("2D/hertz-all/avx512", [function], {}, 2.5).split()[1], "1.4")
+
     def test_scalar_kernel_has_times_alone(self):
         self.assertEqual(roofline.line("2D/rolling/scalar", [], {"2D/rolling/scalar": (60.0, 0.01)}, 2.5).split(),
                          ["2D/rolling/scalar", "60.0", "1.0"])
