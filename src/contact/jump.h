@@ -9,14 +9,14 @@
 // is close to it (backward analysis; Hairer, Lubich, Wanner, doi:10.1007/3-540-30666-8, IX): with
 // the overlap x, its speed v, the elastic force F, its slope k = dF/dx and the time step h,
 //
-//   (1/2) m v^2 + U + h^2 (k v^2 / 12 - F^2 / (24 m))    v and x at the same time
-//   (1/2) m v^2 + U - h^2 (k v^2 / 24 - F^2 / (12 m))    v, and x half a step after its step's end
+//   (1/2) m v^2 + U + h^2 (k v^2 / 12 - F^2 / (24 m))    at the positions of steps
+//   (1/2) m v^2 + U - h^2 (k v^2 / 24 - F^2 / (12 m))    half way between them
 //
-// Outside of contacts both are (1/2) m v^2. So the speed after the touch is the one with which the
-// first of them is what it was before, and the speed after the end is given by the second, half a
-// step before the last position with a contact: k has a pole at the end of the neck, too close to
-// it the series says nothing. Damping is not in an energy: it gets what is due by its value at the
-// jump, a time t ago:
+// Outside of contacts both are (1/2) m v^2. So the speed after a touch is the one with which the
+// first of them stays what it was before; that after an end is given by the second, half a step
+// before the last position with a contact: k has a pole at the end of the neck, and too close to it
+// the series says nothing. Damping has no energy: it gets what is due by its value at the jump, a
+// time t ago:
 //
 //   touch:   force x (t + step/2) is due, force x step is given
 //   end:     force x (step/2 - t) is due, nothing is given
@@ -42,8 +42,8 @@ struct Spring {
   {
   }
   double energy(double s) const { return law.energy(s); }
-  // what leapfrog steps keep beside (1/2) m v^2 and U
-  double with_position(double s, double v, double step) const
+  // what leapfrog steps keep beside (1/2) m v^2 and U, at a position and between two
+  double at_position(double s, double v, double step) const
   {
     const double F = law.force(s);
     return step * step * (law.stiffness(s) * v * v / 12.0 - F * F / (24.0 * mass));
@@ -115,7 +115,7 @@ void correct_touch(const ContactList &list, int k, Row *rows, double step,
   const Spring spring(c, list.mode(k).mass);
   const double v = last.moved / step, s = spring.law.root(last.overlap);
   const double touching = spring.law.root(0.0);
-  const double rise = spring.energy(s) - spring.energy(touching) + spring.with_position(s, v, step);
+  const double rise = spring.energy(s) - spring.energy(touching) + spring.at_position(s, v, step);
   // half of the step's kick comes after this position, and is right as it is
   const double elastic =
       2.0 * rise / (v + spring.speed_after(v, rise)) / step - 0.5 * spring.law.force(s);
@@ -134,15 +134,24 @@ void correct_end(const ContactList &list, int k, Row *rows, double step, std::ve
   if (!(last.moved < 0.0) || beyond > -last.moved) return;
   const Spring spring(c, list.mode(k).mass);
   const double v = -last.moved / step, position = last.overlap - last.moved;
-  // the step before, without the kick between
-  const double before = v - step * spring.law.force(spring.law.root(position)) / spring.mass;
-  const double s = spring.law.root(position + 0.5 * step * before);
-  const double ending = spring.law.root(c.break_overlap);
-  const double rise =
-      spring.energy(ending) - spring.energy(s) - spring.between_positions(s, before, step);
-  const double elastic = spring.mass * (spring.speed_after(before, rise) - v) / step;
+  const double ending = spring.energy(spring.law.root(c.break_overlap));
+  double s = spring.law.root(position);
+  const double kick = step * spring.law.force(s) / spring.mass;    // at that position
+  double left;                                                     // of the speed
+  if (kick < 0.0) {                                                // half a step before, deeper
+    const double before = v - kick;
+    s = spring.law.root(position + 0.5 * step * before);
+    left = spring.speed_after(
+        before, ending - spring.energy(s) - spring.between_positions(s, before, step));
+  } else {    // it repels, so the end of the neck is not near
+    const double then = v - 0.5 * kick;
+    left = spring.speed_after(then, ending - spring.energy(s) - spring.at_position(s, then, step));
+  }
+  const double elastic = spring.mass * (left - v) / step;
   push_apart(rows, list.i[k], list.j[k],
-             elastic + (0.5 + beyond / last.moved) * damping_at(c, ending, -v, c.crowd_mass, step),
+             elastic +
+                 (0.5 + beyond / last.moved) *
+                     damping_at(c, spring.law.root(c.break_overlap), -v, c.crowd_mass, step),
              due);
 }
 

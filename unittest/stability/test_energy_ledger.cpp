@@ -87,8 +87,15 @@ double kinetic(const Motion &m)
   return E;
 }
 
+struct Account {
+  double missing;     // of the energy at the start
+  double momentum;    // change of it, of the sum of magnitudes
+};
+const std::string all_modes = "damping tsuji 0.8 sliding 0.3 twisting yes rolling 0.02 0.1";
+
 // `every`: steps between two looks at the powers, much shorter than a contact's oscillation
-void ledger(const Integrator &integrator, int side, int steps, double step, int every = 1)
+Account ledger(const Integrator &integrator, const std::string &modes, int side, int steps,
+               double step, int every = 1)
 {
   const int N = side * side * side;
   const std::string what = std::to_string(N) + " spheres, " + std::to_string(steps) + " steps";
@@ -104,8 +111,7 @@ void ledger(const Integrator &integrator, int side, int steps, double step, int 
   Scene scene;
   const std::string range = "0 " + digits(width) + " ";
   scene.box = range + range + range;
-  scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr +
-      "damping tsuji 0.8 sliding 0.3 twisting yes rolling 0.02 0.1\n";
+  scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + modes + "\n";
   Simulation sim;
   build(sim, {}, scene);
   add_spheres(sim, x, v);
@@ -154,24 +160,50 @@ void ledger(const Integrator &integrator, int side, int steps, double step, int 
       0.935503 * unit * broken / E0, lost[DAMPING] / E0, lost[SLIDING] / E0, lost[ROLLING] / E0,
       lost[TWISTING] / E0, before.size());
   EXPECT_GT(before.size(), N / 20u);
-  for (const double one : lost) EXPECT_GT(one, 1e-6 * E0) << "each mode takes part";
+  if (!modes.empty())
+    for (const double one : lost) EXPECT_GT(one, 1e-6 * E0) << "each mode takes part";
+  return {std::fabs(sum / E0 - 1.0), *std::max_element(change.begin(), change.end())};
+}
+
+void all_accounts(const Integrator &integrator, int side, int steps, int every)
+{
+  const std::string what = std::to_string(side * side * side) + " spheres, " +
+      std::to_string(steps) + " steps, omega dt = 0.013";
+  const auto account = ledger(integrator, all_modes, side, steps, 0.5 * dt, every);
   expect_criterion(integrator.of("C26 *: energy missing from the ledger of all modes, " + what),
-                   std::fabs(sum / E0 - 1.0), 0.0, 1e-3);
-  expect_criterion(integrator.of("C27 *: change of momentum, " + what),
-                   *std::max_element(change.begin(), change.end()), 0.0, 1e-12);
+                   account.missing, 0.0, 1e-3);
+  expect_criterion(integrator.of("C27 *: change of momentum, " + what), account.momentum, 0.0,
+                   1e-12);
 }
 
 // every integrator with a single collision step in a step: work within a step cannot be seen
 TEST(EnergyLedger, thousand_spheres)
 {
-  for (const auto &one : integrators) ledger({one.name, 1}, 10, count(3000, 100000), 0.5 * dt);
+  for (const auto &one : integrators) all_accounts({one.name, 1}, 10, count(3000, 100000), 1);
 }
 
 TEST(EnergyLedger, many_spheres)
 {
   if (!std::getenv("APF_LONG")) GTEST_SKIP() << "long: tools/cases --long";
-  ledger({"verlet", 1}, 22, 100000, 0.5 * dt, 5);
-  ledger({"verlet", 1}, 46, 100000, 0.5 * dt, 10);
+  all_accounts({"verlet", 1}, 22, 100000, 5);
+  all_accounts({"verlet", 1}, 46, 100000, 10);
+}
+
+// The report's collision step, f3 d (rho^2 / (E^2 U))^(1/5) with f3 = 0.1, U as the speeds at the
+// start. Contacts themselves meet the criterion there; dashpots and sliders, whose velocities are
+// half a step old, at half of the step.
+TEST(EnergyLedger, at_the_step_of_the_report)
+{
+  const double step = 0.1 * std::pow(std::pow(material.E_eff(), 2.0) * 5.0, -0.2);
+  const int steps = count(1500, 100000);
+  const Integrator mts{"mts", 1};
+  const std::string of = std::to_string(steps) + " steps of f3 = ";
+  expect_criterion("C26 mts: energy missing, no damping and friction, " + of + "0.1",
+                   ledger(mts, "", 10, steps, step).missing, 0.0, 1e-3);
+  const double coarse = ledger(mts, all_modes, 10, steps, step).missing;
+  const double fine = ledger(mts, all_modes, 10, 2 * steps, 0.5 * step).missing;
+  expect_criterion("C26 mts: energy missing, all modes, " + of + "0.05", fine, 0.0, 1e-3);
+  expect_criterion("C26 mts: order of the step, all modes", std::log2(coarse / fine), 1.0, 4.0);
 }
 
 }    // namespace
