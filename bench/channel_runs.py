@@ -97,9 +97,10 @@ def speed(scheme, own, reference):
         return {}
     row = {"time": own["loop"], "cpu": own["cpu"], "speedup": reference["loop"] / own["loop"]}
     if "Lambda" in own:
-        cost = 1 + own["x_c"] * own["Lambda"]
-        row.update(Lambda=own["Lambda"], x_c=own["x_c"], model=own["Lambda"] / cost,
-                   bound=scheme.step / 2.5e-5 / cost)
+        sub_steps = own["x_c"] * own["Lambda"]    # of a particle, in a particle step
+        steps = scheme.step / 2.5e-5              # of single rate, in the same time
+        row.update(Lambda=own["Lambda"], x_c=own["x_c"], model=own["Lambda"] / (1 + sub_steps),
+                   equal=steps / (1 + sub_steps), c=(steps / row["speedup"] - 1) / sub_steps)
     return row
 
 

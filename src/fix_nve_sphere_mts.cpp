@@ -141,6 +141,7 @@ void FixNVESphereMTS::choose_steps()
   auto &run = run_totals;
   run.fewest = run.particle_steps ? std::min(run.fewest, n_collision) : n_collision;
   run.most = std::max(run.most, n_collision);
+  run.kappa = std::max(run.kappa, kappa_now);
   run.particle_steps++;
   run.collision_steps += n_collision;
   all_collision_steps += n_collision;

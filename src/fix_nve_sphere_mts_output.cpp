@@ -22,19 +22,24 @@ void FixNVESphereMTS::post_run()
   bigint mine[2] = {run.active, run.atoms}, all[2];
   MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   const bigint late = late_contacts() - run.late_before;
+  const double contacts = compute_vector(2);
   if (comm->me != 0) return;
   utils::logmesg(lmp,
                  "{} {}: {} particle steps of {:.4g}, {} collision steps, {} to {} in a particle "
-                 "step\n  sub-stepped {:.1f} % of the particles; {}; contacts found late {}\n",
+                 "step\n  sub-stepped {:.1f} % of the particles, {:.0f} contacts at the end; {}; "
+                 "contacts found late {}\n",
                  command, id, run.particle_steps, update->dt, run.collision_steps, run.fewest,
-                 run.most, 100.0 * all[0] / std::max<bigint>(all[1], 1), finest_step(), late);
+                 run.most, 100.0 * all[0] / std::max<bigint>(all[1], 1), contacts, finest_step(),
+                 late);
 }
 
 // what asked for it, or what the script's number of steps is worth
 std::string FixNVESphereMTS::finest_step() const
 {
   const auto &run = run_totals;
-  if (!fixed_steps) return fmt::format("finest step set by {} mode of contacts", run.mode);
+  if (!fixed_steps)
+    return fmt::format("finest step set by {} mode of contacts, omega dt at most {:.2g}", run.mode,
+                       run.kappa);
   if (run.finest == 0.0) return "no contacts";
   return fmt::format("stiffest mode of contacts {}, {:.3g} collision steps in its period", run.mode,
                      MathConst::MY_2PI / run.finest);

@@ -113,7 +113,9 @@ TEST(MtsErrors, summary_at_the_end_of_a_run)
   build(pair, {{3.0, 4.0, 4.0}, {3.99, 4.0, 4.0}, {6.0, 6.0, 6.0}});
   expect_words(log_of(pair, start + "run 5\n"),
                {"nve: 5 particle steps", "40 collision steps, 8 to 8 in a particle step",
-                "sub-stepped 66.7 %", "in its period; contacts found late 0"});
+                "sub-stepped 66.7 % of the particles, 1 contacts at the end; stiffest mode of "
+                "contacts tangential, ",
+                "in its period; contacts found late 0"});
   Simulation wet;
   build(wet, {{3.0, 4.0, 4.0}, {3.995, 4.0, 4.0}});
   expect_words(log_of(wet,
@@ -122,10 +124,51 @@ TEST(MtsErrors, summary_at_the_end_of_a_run)
                {"finest step set by bridge mode"});
   Simulation none;
   build(none, {{2.0, 4.0, 4.0}, {6.0, 4.0, 4.0}});
-  expect_words(log_of(none, "fix nve all nve/sphere/mts collision auto\nrun 1\n"),
-               {"sub-stepped 0.0 %", "finest step set by no mode"});
+  expect_words(
+      log_of(none, "fix nve all nve/sphere/mts collision auto\nrun 1\n"),
+      {"sub-stepped 0.0 %", "finest step set by no mode of contacts, omega dt at most 0;"});
   expect_words(log_of(none, "unfix nve\n" + start + "run 1\n"),
-               {"sub-stepped 0.0 % of the particles; no contacts; contacts found late 0"});
+               {"sub-stepped 0.0 % of the particles, 0 contacts at the end; no contacts; "
+                "contacts found late 0"});
+}
+
+// A law of which one mode is the stiffest, a pair at rest: omega dt is the safety that was asked for,
+// or less by the rounding up of the number of steps.
+TEST(MtsErrors, summary_names_the_stiffest_mode)
+{
+  const std::vector<std::pair<std::string, std::string>> laws = {
+      {"normal", "jkr 1e6 0.25 100"},
+      {"tangential", "jkr 1e6 0.25 100 sliding 0.3"},
+      {"rolling", "jkr 1e6 0.25 1.5e4 rolling 0.02"}};
+  for (const auto &[mode, law] : laws) {
+    Simulation sim;
+    Scene scene;
+    scene.style = "pair_style granular/adhesive\npair_coeff * * " + law + "\n";
+    const double E = 0.5e6 / (1.0 - 0.0625), gamma = mode == "rolling" ? 1.5e4 : 100.0;
+    build(sim, {{3.0, 4.0, 4.0}, {4.0 - JkrCurve{0.25, E, gamma}.delta_eq(), 4.0, 4.0}}, scene);
+    const auto text = log_of(sim,
+                             "fix nve all nve/sphere/mts collision auto safety 0.1\ntimestep " +
+                                 digits(32.0 * dt) + "\nrun 2\n");
+    const std::string before =
+        "finest step set by " + mode + " mode of contacts, omega dt at most ";
+    const auto at = text.find(before);
+    ASSERT_NE(at, std::string::npos) << text;
+    const double kappa = std::stod(text.substr(at + before.size()));
+    EXPECT_LE(kappa, 0.1) << text;
+    EXPECT_GT(kappa, 0.08) << text;
+  }
+}
+
+// A pair that nobody looks out for is found overlapping, and counted.
+TEST(MtsErrors, summary_counts_what_was_found_late)
+{
+  Simulation sim;
+  build(sim, {{3.0, 4.0, 4.0}, {4.01, 4.0, 4.0}});
+  sim.run("group right id 2\nvelocity right set -1 0 0");
+  expect_words(log_of(sim,
+                      "fix nve all nve/sphere/mts collision 8 lookahead no\ntimestep " +
+                          digits(512.0 * dt) + "\nrun 1\n"),
+               {"1 contacts at the end", "contacts found late 1\n"});
 }
 
 // A pair at rest: sqrt(3.5 k_T/m) with k_T = 8 G a0 is its highest frequency, and the step is the
