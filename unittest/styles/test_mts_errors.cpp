@@ -132,8 +132,8 @@ TEST(MtsErrors, summary_at_the_end_of_a_run)
                 "contacts found late 0"});
 }
 
-XX
-// or less by the rounding up of the number of steps.
+// A law of which one mode is the stiffest, a pair at rest: omega dt is the safety that was asked
+// for, or less by the rounding up of the number of steps.
 TEST(MtsErrors, summary_names_the_stiffest_mode)
 {
   const std::vector<std::pair<std::string, std::string>> laws = {
