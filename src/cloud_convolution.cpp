@@ -42,7 +42,7 @@ CloudConvolution::CloudConvolution(LAMMPS *lmp, const CellGrid &_grid, double ra
     spectrum[a].resize(n);
     for (int k = 0; k < n; k++)
       spectrum[a][k] = apf::cloud_spectrum(shape.order[c], radius * grid.inverse_spacing[c],
-                                           2.0 * M_PI * std::min(k, n - k) / n) /
+                                           2.0 * apf::pi * std::min(k, n - k) / n) /
           n;
   }
   make_brick();

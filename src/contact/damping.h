@@ -4,7 +4,7 @@
 #ifndef APF_DAMPING_H
 #define APF_DAMPING_H
 
-#include "jkr.h"
+#include "vector.h"
 
 namespace apf {
 

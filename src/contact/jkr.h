@@ -20,8 +20,6 @@
 
 namespace apf {
 
-constexpr double pi = 3.14159265358979323846;
-
 struct JKR {
   double R;       // effective radius, r_i r_j / (r_i + r_j); r_i at a wall       [length]
   double K;       // force scale (4/3) E R^2                                       [force]

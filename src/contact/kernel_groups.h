@@ -6,7 +6,7 @@
 #define APF_KERNEL_GROUPS_H
 
 #include "contact_law.h"
-#include "pack.h"
+#include "pack_rows.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -18,6 +18,8 @@
 
 namespace apf {
 
+constexpr double pi = 3.14159265358979323846;
+
 APF_INLINE double norm2(double a)
 {
   return a * a;

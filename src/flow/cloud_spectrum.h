@@ -11,6 +11,8 @@
 #ifndef APF_CLOUD_SPECTRUM_H
 #define APF_CLOUD_SPECTRUM_H
 
+#include "../contact/vector.h"
+
 #include <cmath>
 
 namespace apf {
@@ -49,7 +51,6 @@ inline double cloud_spectrum(int order, double radius, double wave)
 // spline and of the cloud itself.
 inline double alias_error(int order, double radius)
 {
-  constexpr double pi = 3.14159265358979323846;
   constexpr int samples = 200;
   double wrong = 0.0, peak = 0.0;
   for (int s = 0; s < 3 * samples; s++) {

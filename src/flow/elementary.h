@@ -155,7 +155,7 @@ template <class Real> APF_INLINE Real logarithm(const Real &x)
 // cos and sin of 2 pi u, |u| <= 1/2, by those of half the angle; error 1e-12
 template <class Real> APF_INLINE void on_circle(const Real &u, Real &cosine, Real &sine)
 {
-  const Real half = 3.14159265358979323846 * u, square = half * half;
+  const Real half = pi * u, square = half * half;
   const Real s = half * polynomial(series::sine, square);
   const Real c = polynomial(series::cosine, square);
   cosine = 1.0 - 2.0 * s * s;

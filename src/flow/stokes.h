@@ -17,7 +17,6 @@
 namespace apf {
 
 namespace sphere {
-  constexpr double pi = 3.14159265358979323846;
   template <class Real> APF_INLINE Real volume(const Real &diameter)
   {
     return pi / 6.0 * diameter * diameter * diameter;
@@ -31,13 +30,13 @@ namespace sphere {
 // force per slip velocity                                           [mass/time]
 template <class Real> APF_INLINE Real stokes_resistance(double viscosity, const Real &diameter)
 {
-  return 3.0 * sphere::pi * viscosity * diameter;
+  return 3.0 * pi * viscosity * diameter;
 }
 
 // torque per slip angular velocity                                  [mass length^2/time]
 template <class Real> APF_INLINE Real stokes_spin_resistance(double viscosity, const Real &diameter)
 {
-  return sphere::pi * viscosity * diameter * diameter * diameter;
+  return pi * viscosity * diameter * diameter * diameter;
 }
 
 // mass of the fluid that a sphere displaces, chi m in the report    [mass]

@@ -12,8 +12,6 @@
 
 namespace apf {
 
-constexpr double pi = 3.14159265358979323846;
-
 using Field = std::function<Vec3(const double *)>;
 
 // a field on a grid, as the reader of files makes it

@@ -18,8 +18,6 @@ using namespace apf;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 double component(const Vec3 &a, int k)
 {
   return k == 0 ? a.x : k == 1 ? a.y : a.z;

@@ -20,8 +20,6 @@ using namespace apf;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 // a block of different spheres in a flow of random velocity and gradient
 struct Scene {
   FluidModel model;

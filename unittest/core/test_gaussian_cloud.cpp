@@ -10,8 +10,6 @@
 
 using namespace apf;
 
-static constexpr double pi = 3.14159265358979323846;
-
 TEST(GaussianCloud, has_the_moments_of_a_gaussian)
 {
   for (double at : {10.0, 10.3, 10.5, 10.99}) {

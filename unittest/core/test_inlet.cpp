@@ -16,8 +16,6 @@ namespace {
 
 using namespace apf;
 
-constexpr double pi = 3.14159265358979323846;
-
 struct Uniform {
   std::mt19937_64 engine{4711};
   double operator()() { return std::uniform_real_distribution<double>(1e-15, 1.0)(engine); }

@@ -78,7 +78,9 @@ std::vector<Impact> phases(double speed, double step, int count = 50)
 
 // ---------------------------------------------------------------------------------------------
 // C1. Were the steps in which contacts are made and end taken as they are, e would scatter with the
-// phase by 8 % at 1.2 V_s and this step, in proportion to it.
+// phase by 8 % at 1.2 V_s and this step, in proportion to it; with the force of the jump times the
+// time that was missed, by some tenths of a per cent. They leave the energy that leapfrog steps
+// keep, so that the error is of second order.
 
 const double accurate = 4.0 * dt;    // omega dt = 0.1 of the normal mode at rest
 
@@ -119,15 +121,17 @@ TEST(MtsImpact, sticking_speed)
 TEST(MtsImpact, error_falls_with_the_step)
 {
   const double V_s = sticking_speed(material.pair());
-  auto error = [&](double step) {
+  auto error = [&](double step) {    // mean of 5 speeds at 50 phases
     double sum = 0.0;
     for (const double V : {1.2, 1.5, 2.0, 3.0, 5.0})
       for (const double e : restitutions(phases(V * V_s, step), elastic(step)))
         sum += std::fabs(e - std::sqrt(1.0 - 1.0 / (V * V)));
-    return sum;
+    return sum / 250.0;
   };
-  const double slope = std::log2(error(4 * dt) / error(dt)) / 2.0;
-  expect_criterion("C1 mts: order of the error in the step", slope, 0.9, 2.6);
+  const double coarse = error(4 * dt);
+  expect_criterion("C1 mts: mean error of e at omega dt = 0.1", coarse, 1e-6, 1e-4);
+  const double slope = std::log2(coarse / error(dt)) / 2.0;
+  expect_criterion("C1 mts: order of the error in the step", slope, 1.8, 3.2);
 }
 
 // ---------------------------------------------------------------------------------------------
