@@ -52,6 +52,14 @@ def verdict(what, value, target, good):
     return f"{what:<58}{value:>8}   target {target:<18}{'reached' if good else 'missed'}"
 
 
+def keep_table(text, folder, name):
+    """Prints a table and writes it to name.txt in the folder of results; the path of the plot beside it."""
+    print(text, end="")
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"{name}.txt").write_text(text)
+    return folder / f"{name}.png"
+
+
 class Failure(Exception):
     """A run of LAMMPS that ended with an error."""
 

@@ -24,7 +24,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from bars import COLOURS, Spread, draw_bars, mark
-from lammps_runs import HERE, processor, stop, verdict
+from lammps_runs import HERE, keep_table, processor, stop, verdict
 
 PARTICLES = 7980
 WARM = 100    # steps before the clock starts, for caches and pages
@@ -425,10 +425,7 @@ def main():
         parts = measure(sub_model_cases(lmp), folder, args.steps, args.repeat)
 
     text = report(args, lmp, liggghts, engines, parts)
-    print(text, end="")
-    args.results.mkdir(parents=True, exist_ok=True)
-    (args.results / "peers.txt").write_text(text)
-    draw(engines, parts, args.results / "peers.png")
+    draw(engines, parts, keep_table(text, args.results, "peers"))
 
 
 if __name__ == "__main__":

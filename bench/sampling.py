@@ -15,7 +15,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 from bars import Spread, draw_bars
-from lammps_runs import HERE, processor, prose, stop
+from lammps_runs import HERE, keep_table, processor, prose, stop
 from roofline import SETS, measured, output
 
 PARTICLES = 102400    # of sampling.cpp
@@ -82,10 +82,7 @@ def main():
                        output(args.program, "--benchmark_format=json",
                               "--benchmark_enable_random_interleaving=true"))
     text = "\n".join(table(times)) + "\n"
-    print(text, end="")
-    args.results.mkdir(parents=True, exist_ok=True)
-    (args.results / "sampling.txt").write_text(text)
-    draw(times, args.results / "sampling.png")
+    draw(times, keep_table(text, args.results, "sampling"))
 
 
 if __name__ == "__main__":

@@ -27,8 +27,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
 
-from lammps_runs import (CHANNEL, HERE, Failure, check_log, environment, lammps_command, processor,
-                         prose, read_log, stop, verdict)
+from lammps_runs import (CHANNEL, HERE, Failure, check_log, environment, keep_table, lammps_command,
+                         processor, prose, read_log, stop, verdict)
 
 WARM = 5                        # particle steps before the clock starts
 PARTICLE_STEP = 1e-3            # of the channel                                    [L/U]
@@ -325,10 +325,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         samples = measure(args, Path(folder))
     text = report(args, samples)
-    print(text, end="")
-    args.results.mkdir(parents=True, exist_ok=True)
-    (args.results / "scaling.txt").write_text(text)
-    draw(samples, args.results / "scaling.png")
+    draw(samples, keep_table(text, args.results, "scaling"))
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ from pathlib import Path
 
 from channel_runs import Channel, channel_set
 from impacts import damped_set, elastic_set
-from lammps_runs import HERE, Store, stop
+from lammps_runs import HERE, Store, keep_table, stop
 from speed_error_report import draw, report
 
 
@@ -82,10 +82,7 @@ def main():
     if not (elastic or damped or channel.rows):
         stop(f"{args.work}: nothing has run yet")
     text = report(args, *found)
-    print(text, end="")
-    args.results.mkdir(parents=True, exist_ok=True)
-    (args.results / "speed_error.txt").write_text(text)
-    draw(*found, args.results / "speed_error.png")
+    draw(*found, keep_table(text, args.results, "speed_error"))
 
 
 if __name__ == "__main__":

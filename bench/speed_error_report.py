@@ -102,11 +102,11 @@ def channel_lines(args, channel):
                      + "".join(f"{percent(row[q]):>10}" for q in QUANTITIES)
                      + f"{number(row, 'late', 'd'):>6}{number(row, 'time', '.1f'):>10}"
                      f"{number(row, 'Lambda', '.1f'):>8}{number(row, 'x_c', '.3f'):>7}"
-                     f"{number(row, 'speedup', '.2f'):>9}{number(row, 'equal', '.2f'):>7}{number(row, 'c', '.2f'):>6}"
-                     f"{number(row, 'model', '.2f'):>7}{number(row, 'cpu', '.0%'):>7}")
+                     f"{number(row, 'speedup', '.2f'):>9}{number(row, 'equal', '.2f'):>7}"
+                     f"{number(row, 'c', '.2f'):>6}{number(row, 'model', '.2f'):>7}{number(row, 'cpu', '.0%'):>7}")
     lines.append(f"{'standard deviation':<31}"
                  + "".join(f"{percent(channel.spread[q]).lstrip('+'):>10}" for q in QUANTITIES))
-    lines += ["", *prose(f"""Wanted: within 1 % of single rate. The standard deviation is that of single
+    lines += ["", *prose("""Wanted: within 1 % of single rate. The standard deviation is that of single
                     rate over seeds; a difference well below it says nothing about a scheme.""")]
     return lines
 

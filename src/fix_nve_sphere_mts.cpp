@@ -150,9 +150,8 @@ void FixNVESphereMTS::choose_steps()
   for (int i = 0; i < atom->nlocal; i++) active_now += !foresight.free(i);
   run.active += active_now;
   run.atoms += atoms_now;
-  const double fineness = fixed_steps ? kappa_now : demand;
-  if (fineness >= run.finest) {
-    run.finest = fineness;
+  if (demand >= run.finest) {
+    run.finest = demand;
     run.mode = apf::mode_names[all.mode];
   }
 }

@@ -97,7 +97,7 @@ class FixNVESphereMTS : public Fix {
     bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0;
     int fewest = 0, most = 0;
     double kappa = 0.0;         // largest omega times collision step
-    double finest = 0.0;        // largest 1/step that was asked for; at a given number, omega step
+    double finest = 0.0;        // largest 1/step that was asked for, or would be
     const char *mode = "no";    // of the contact it comes from
   } run_totals;
   bigint all_collision_steps = 0, late_before_restart = 0;

@@ -40,9 +40,9 @@ std::string FixNVESphereMTS::finest_step() const
   if (!fixed_steps)
     return fmt::format("finest step set by {} mode of contacts, omega dt at most {:.2g}", run.mode,
                        run.kappa);
-  if (run.finest == 0.0) return "no contacts";
+  if (run.kappa == 0.0) return "no contacts";
   return fmt::format("stiffest mode of contacts {}, {:.3g} collision steps in its period", run.mode,
-                     MathConst::MY_2PI / run.finest);
+                     MathConst::MY_2PI / run.kappa);
 }
 
 bigint FixNVESphereMTS::late_contacts() const

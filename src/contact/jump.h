@@ -41,7 +41,6 @@ struct Spring {
       law{c.R, c.K, c.neck6 > 0.0 ? c.root_unit : 0.0}, mass(mass)
   {
   }
-  double energy(double s) const { return law.energy(s); }
   // what leapfrog steps keep beside (1/2) m v^2 and U, at a position and between two
   double at_position(double s, double v, double step) const
   {
@@ -115,7 +114,8 @@ void correct_touch(const ContactList &list, int k, Row *rows, double step,
   const Spring spring(c, list.mode(k).mass);
   const double v = last.moved / step, s = spring.law.root(last.overlap);
   const double touching = spring.law.root(0.0);
-  const double rise = spring.energy(s) - spring.energy(touching) + spring.at_position(s, v, step);
+  const double rise =
+      spring.law.energy(s) - spring.law.energy(touching) + spring.at_position(s, v, step);
   // half of the step's kick comes after this position, and is right as it is
   const double elastic =
       2.0 * rise / (v + spring.speed_after(v, rise)) / step - 0.5 * spring.law.force(s);
@@ -134,7 +134,7 @@ void correct_end(const ContactList &list, int k, Row *rows, double step, std::ve
   if (!(last.moved < 0.0) || beyond > -last.moved) return;
   const Spring spring(c, list.mode(k).mass);
   const double v = -last.moved / step, position = last.overlap - last.moved;
-  const double ending = spring.energy(spring.law.root(c.break_overlap));
+  const double end = spring.law.root(c.break_overlap), ending = spring.law.energy(end);
   double s = spring.law.root(position);
   const double kick = step * spring.law.force(s) / spring.mass;    // at that position
   double left;                                                     // of the speed
@@ -142,16 +142,15 @@ void correct_end(const ContactList &list, int k, Row *rows, double step, std::ve
     const double before = v - kick;
     s = spring.law.root(position + 0.5 * step * before);
     left = spring.speed_after(
-        before, ending - spring.energy(s) - spring.between_positions(s, before, step));
+        before, ending - spring.law.energy(s) - spring.between_positions(s, before, step));
   } else {    // it repels, so the end of the neck is not near
     const double then = v - 0.5 * kick;
-    left = spring.speed_after(then, ending - spring.energy(s) - spring.at_position(s, then, step));
+    left =
+        spring.speed_after(then, ending - spring.law.energy(s) - spring.at_position(s, then, step));
   }
   const double elastic = spring.mass * (left - v) / step;
   push_apart(rows, list.i[k], list.j[k],
-             elastic +
-                 (0.5 + beyond / last.moved) *
-                     damping_at(c, spring.law.root(c.break_overlap), -v, c.crowd_mass, step),
+             elastic + (0.5 + beyond / last.moved) * damping_at(c, end, -v, c.crowd_mass, step),
              due);
 }
 

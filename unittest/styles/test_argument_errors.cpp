@@ -1,26 +1,15 @@
 // Words that are no numbers, numbers out of range and words that are none of a few: all commands
 // say so in the same words, with argument, range and value, and point at the word.
 
-#include "points_at.h"
+#include "refused_commands.h"
 #include "simulation.h"
 
 #include "gtest/gtest.h"
 
 namespace {
 
-const std::string scene = R"(
-units lj
-atom_style sphere
-comm_modify vel yes
-boundary f p f
-region box block 0 10 0 10 0 10
-create_box 1 box
-create_atoms 1 single 5 5 5
-set group all diameter 1 density 1
-fix air all flow/field uniform 1 0 0 density 1 viscosity 1
-pair_style granular/adhesive
-pair_coeff * * jkr 1e6 0.3 0.01
-)";
+const std::string scene =
+    sphere_in_air + "pair_style granular/adhesive\npair_coeff * * jkr 1e6 0.3 0.01\n";
 
 struct Row {
   std::string command, message, word;    // the last one is what the error points at

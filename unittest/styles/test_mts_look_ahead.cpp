@@ -142,6 +142,14 @@ struct Struck {
   }
 };
 
+void expect_all_struck(const std::string &impacts, const Struck &struck, Simulation &sim)
+{
+  expect_criterion("C4 mts: missed of " + impacts, struck.missed, 0.0, 0.0);
+  EXPECT_LT(struck.worst_kick, 0.01);
+  EXPECT_LT(struck.worst_energy, 0.01);
+  EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+}
+
 TEST(MtsLookAhead, no_impact_is_missed)
 {
   const Impact impact{1e3, false};
@@ -183,10 +191,7 @@ TEST(MtsLookAhead, no_impact_is_missed)
     }
     struck.count(u, w, expected[k]);
   }
-  expect_criterion("C4 mts: missed of 1e5 impacts", struck.missed, 0.0, 0.0);
-  EXPECT_LT(struck.worst_kick, 0.01);
-  EXPECT_LT(struck.worst_energy, 0.01);
-  EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+  expect_all_struck("1e5 impacts", struck, sim);
 }
 
 // ... on a plane, nearly along it, and on a rod of the size of the spheres
@@ -228,12 +233,7 @@ TEST(MtsLookAhead, no_wall_is_missed)
     const auto after = gather(sim, "v");
     Struck struck;
     for (int k = 0; k < n; k++) struck.count(&v[3 * k], &after[3 * k], expected[k]);
-    expect_criterion(rod ? "C4 mts: missed of 2e4 impacts on a rod"
-                         : "C4 mts: missed of 2e4 impacts on a plane",
-                     struck.missed, 0.0, 0.0);
-    EXPECT_LT(struck.worst_kick, 0.01);
-    EXPECT_LT(struck.worst_energy, 0.01);
-    EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+    expect_all_struck(rod ? "2e4 impacts on a rod" : "2e4 impacts on a plane", struck, sim);
   }
 }
 

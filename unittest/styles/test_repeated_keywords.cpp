@@ -1,7 +1,7 @@
 // A keyword that is given twice, of which one value would count for nothing: an error that points
 // at the second one. Those that add something each time stay as they are.
 
-#include "points_at.h"
+#include "refused_commands.h"
 #include "simulation.h"
 #include "temporary_file.h"
 
@@ -9,17 +9,6 @@
 
 namespace {
 
-const std::string box = R"(
-units lj
-atom_style sphere
-comm_modify vel yes
-boundary f p f
-region box block 0 10 0 10 0 10
-create_box 1 box
-create_atoms 1 single 5 5 5
-set group all diameter 1 density 1
-fix air all flow/field uniform 1 0 0 density 1 viscosity 1
-)";
 const std::string law = " jkr 1e6 0.3 0.01 ", floor_at_0 = "fix w all wall/levelset plane z 0 NULL";
 const std::string in = "fix in all inlet/flow x 1 air number 1 diameter 1 density 1 type 1 seed 1";
 
@@ -27,7 +16,7 @@ void expect_second_is_refused(const std::string &scene, const std::string &comma
                               const std::string &keyword)
 {
   Simulation sim;
-  sim.run(box + scene);
+  sim.run(sphere_in_air + scene);
   const std::string error = sim.error_of(command);
   EXPECT_NE(error.find("keyword " + keyword + " is given twice"), std::string::npos)
       << command << "\ngave: " << error;
@@ -109,7 +98,7 @@ TEST(RepeatedKeywords, arrays_of_a_wall_differ)
                            "array distance_a");
   expect_second_is_refused("", wall + law + "resolution 0.1 resolution 0.1", "resolution");
   Simulation sim;
-  sim.run(box);
+  sim.run(sphere_in_air);
   EXPECT_EQ(sim.error_of(wall + " array distance_a array distance_b" + law), "");
 }
 
@@ -119,7 +108,7 @@ TEST(RepeatedKeywords, that_add_something_each_time_are_taken)
        {floor_at_0 + law + "zone a lo zone b box move linear 0 0 0 move rotate 0 0 0 0 0 0",
         in + " outlet x 9 outlet z 8"}) {
     Simulation sim;
-    sim.run(box);
+    sim.run(sphere_in_air);
     EXPECT_EQ(sim.error_of(command), "") << command;
   }
 }
