@@ -1,4 +1,4 @@
-"""The channel of speed_error.py: schemes, runs, and differences from the single rate."""
+"""The channel of speed_error.py and channel_phi.py: schemes, runs, differences from the single rate."""
 import re
 import shutil
 from dataclasses import dataclass, field
@@ -56,16 +56,16 @@ def channel_script(folder, scheme):
     return copy
 
 
-def run_channel(args, scheme, seed, time):
+def run_channel(args, scheme, seed, time, phi="50"):
     """One run to that time: log, and quantities averaged over the last fifth."""
     folder = args.work / "scratch-channel"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     variables = {"integrate": scheme.integrate, "step": scheme.step, "seed": seed, "t": time,
-                 "dir": folder, "picture": 2 * time + 1}
+                 "phi": phi, "dir": folder, "picture": 2 * time + 1}
     run_lammps(args.lmp, channel_script(folder, scheme), variables, folder, args.ranks)
-    log = (folder / "channel-phi50.log").read_text()
-    rows = np.loadtxt(folder / "channel-phi50.aggregates", ndmin=2)
+    log = (folder / f"channel-phi{phi}.log").read_text()
+    rows = np.loadtxt(folder / f"channel-phi{phi}.aggregates", ndmin=2)
     last = rows[rows[:, 1] >= 0.8 * time - 1e-6]
     return dict(read_log(log), **{name: float(last[:, k].mean())
                                   for name, k in QUANTITIES.items()})

@@ -1,0 +1,183 @@
+#!/usr/bin/python3
+"""The channel at each adhesion number of the report: fix nve/sphere/mts beside a single rate.
+
+    channel_phi.py [--quick] [--phi PHI ...] [--time T] [--seeds K] [--ranks N]
+                   [--measure all|nothing] [--work DIR] [--results DIR] [--lmp FILE]
+
+Runs examples/channel both ways to the time T, from the same particles, for each phi and seed, one
+run after the other. Prints, and writes to results/channel_phi.txt with a plot in
+results/channel_phi.png: shares in aggregates and on walls, number and size of aggregates, wall-clock
+time of each, and what mts gains. Every run leaves a JSON file in DIR (default ../build-speed): the
+command goes on where it was. Delete DIR after a change of the code. Needs Debian's python3-numpy and
+python3-matplotlib.
+"""
+import argparse
+import os
+import shutil
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import NullLocator
+
+from channel_runs import QUANTITIES, channel_schemes, run_channel
+from lammps_runs import HERE, Store, keep_table, processor, prose, stop
+
+PARTICLES = 8000
+SHARES = ("in agg.", "wall")     # of QUANTITIES, shown as a share of all particles
+NAMES = {"single rate report": "single rate", "mts tolerance 0.01": "mts"}
+COLOURS = {"single rate": "#000000", "mts": "#D55E00"}
+
+
+def arguments():
+    """Command line."""
+    parser = argparse.ArgumentParser(description="The channel at each phi, mts beside a single rate.")
+    parser.add_argument("--quick", action="store_true", help="one phi, one seed, a short time")
+    parser.add_argument("--phi", nargs="+", help="adhesion numbers (default 1.5 15 50 150)")
+    parser.add_argument("--time", type=float, help="end of the runs [L/U] (default 4)")
+    parser.add_argument("--seeds", type=int, help="runs of each (default 3)")
+    parser.add_argument("--ranks", type=int, default=2, help="MPI ranks (default 2)")
+    parser.add_argument("--measure", choices=("all", "nothing"), default="all",
+                        help="nothing shows what has run")
+    parser.add_argument("--lmp", default=HERE.parent / "lmp", help="LAMMPS with APF (default ../lmp)")
+    parser.add_argument("--work", type=Path, default=HERE.parent / "build-speed",
+                        help="folder for results of runs (default ../build-speed)")
+    parser.add_argument("--results", type=Path, default=HERE / "results",
+                        help="folder for table and plot (default results, beside this)")
+    args = parser.parse_args()
+    for name, short, full in (("phi", ["50"], ["1.5", "15", "50", "150"]), ("time", 0.2, 4.0),
+                              ("seeds", 1, 3)):
+        if getattr(args, name) is None:
+            setattr(args, name, short if args.quick else full)
+    lmp = shutil.which(args.lmp) or stop(f"{args.lmp} is not a program; name a LAMMPS with APF by --lmp")
+    args.lmp, args.work = os.path.abspath(lmp), args.work.resolve()
+    return args
+
+
+def measure(args, store):
+    """{phi: {scheme: results by seed}} of the seeds that ran both ways."""
+    schemes = [scheme for scheme in channel_schemes() if scheme.name in NAMES]
+    out = {}
+    for phi in args.phi:
+        runs = {NAMES[scheme.name]: [] for scheme in schemes}
+        for seed in range(4711, 4711 + args.seeds):
+            both = {NAMES[scheme.name]: store.get(
+                f"channel phi={phi} t={args.time:g} np={args.ranks} {scheme.name} {seed}",
+                lambda s=scheme, seed=seed, phi=phi: run_channel(args, s, seed, args.time, phi))
+                for scheme in schemes}
+            failed = [result["failed"] for result in both.values() if result and "failed" in result]
+            if failed:
+                stop(f"phi = {phi}, seed {seed}: {failed[0]}")
+            if all(both.values()):
+                for name, result in both.items():
+                    runs[name].append(result)
+        if runs["mts"]:
+            out[phi] = runs
+    return out
+
+
+def scaled(name, values):
+    """Shares in percent of all particles, other quantities as they are."""
+    return np.array(values) * (100 / PARTICLES if name in SHARES else 1)
+
+
+def spread(values):
+    """Standard deviation over seeds, nan for a single one."""
+    return np.std(values, ddof=1) if len(values) > 1 else np.nan
+
+
+def middle(values, form):
+    """Median and extremes as text."""
+    return f"{np.median(values):{form}} ({min(values):{form}} .. {max(values):{form}})"
+
+
+def table(args, found):
+    """The text that is printed and written."""
+    lines = [*prose(f"""{processor()}. Channel to t = {args.time:g} L/U, {args.ranks} rank(s), up to
+                    {args.seeds} seeds. single rate: fix nve/sphere with the report's collision step,
+                    2.5e-5 L/U; mts: particle step 1e-3 L/U, collision tolerance 0.01. In aggregates and
+                    on walls: per cent of all particles in aggregates, in those on a wall; means
+                    over the last fifth of the time and over seeds, +- standard deviation over
+                    seeds; mts - single: mean of the differences of runs with the same seed, +- its
+                    standard error. Times are LAMMPS's loop times, median (smallest .. largest);
+                    speed-up: median of the ratios of runs of the same seed. Lambda: collision steps
+                    of a particle step; x_c: share of particles sub-stepped; late: contacts found
+                    late; cpu: least share of the time on a core."""), "",
+             f"{'phi':<5}{'':<13}{'in aggregates %':>17}{'number':>16}{'size':>16}{'on walls %':>17}"
+             f"{'time [s]':>23}{'speed-up':>10}{'Lambda':>8}{'x_c':>7}{'late':>6}{'cpu':>6}"]
+    digits = {"in agg.": 2, "number": 1, "size": 1, "wall": 2}
+
+    def cells(values, error):
+        widths = (17, 16, 16, 17)
+        return "".join(f"{f'{values[q]:.{digits[q]}f} +- {error[q]:.{digits[q]}f}':>{w}}"
+                       for q, w in zip(QUANTITIES, widths))
+
+    for phi, runs in found.items():
+        by_name = {name: {q: scaled(q, [r[q] for r in results]) for q in QUANTITIES}
+                   for name, results in runs.items()}
+        times = {name: [r["loop"] for r in results] for name, results in runs.items()}
+        for name, results in runs.items():
+            line = f"{phi:<5}{name:<13}" + cells({q: v.mean() for q, v in by_name[name].items()},
+                                                 {q: spread(v) for q, v in by_name[name].items()})
+            line += f"{middle(times[name], '.1f'):>23}"
+            if name == "mts":
+                gain = np.median(np.array(times["single rate"]) / times["mts"])
+                line += (f"{gain:>10.2f}{np.mean([r['Lambda'] for r in results]):>8.1f}"
+                         f"{np.mean([r['x_c'] for r in results]):>7.3f}{sum(r['late'] for r in results):>6}")
+            else:
+                line += " " * 31
+            lines.append(line + f"{min(r['cpu'] for r in results):>6.0%}")
+        apart = {q: by_name["mts"][q] - by_name["single rate"][q] for q in QUANTITIES}
+        lines += [f"{'':<5}{'mts - single':<13}" + cells(
+            {q: v.mean() for q, v in apart.items()},
+            {q: spread(v) / np.sqrt(len(v)) for q, v in apart.items()}), ""]
+    return "\n".join(lines[:-1]) + "\n"
+
+
+def draw(args, found, path):
+    """Shares and times over phi."""
+    figure, (shares, times) = plt.subplots(1, 2, figsize=(11, 4.6))
+    phi = [float(word) for word in found]
+    for name, colour in COLOURS.items():
+        for q, marker, words in (("in agg.", "o", "in aggregates"), ("wall", "s", "in aggregates on walls")):
+            values = [scaled(q, [r[q] for r in runs[name]]) for runs in found.values()]
+            shares.errorbar(phi, [v.mean() for v in values], [spread(v) for v in values], marker=marker,
+                            color=colour, linestyle="-" if name == "mts" else "none", capsize=4,
+                            markersize=5 if name == "mts" else 9, label=f"{words}, {name}",
+                            markerfacecolor=colour if name == "mts" else "none")
+        values = [[r["loop"] for r in runs[name]] for runs in found.values()]
+        middles = [np.median(v) for v in values]
+        around = [[m - min(v) for m, v in zip(middles, values)], [max(v) - m for m, v in zip(middles, values)]]
+        times.errorbar(phi, middles, around, marker="o", color=colour, capsize=4, label=name)
+    shares.set(title=f"4/5 to all of t = {args.time:g} L/U; bars: standard deviation over seeds",
+               ylabel="share of all particles [%]", ylim=(0, 100))
+    times.set(title=f"to t = {args.time:g} L/U, {args.ranks} ranks; bars: smallest and largest",
+              ylabel="wall-clock time [s]", yscale="log")
+    for axis in (shares, times):
+        axis.set(xlabel=r"$\phi = \gamma/(\rho_p U^2 r)$", xscale="log")
+        axis.set_xticks(phi, [f"{p:g}" for p in phi])
+        axis.xaxis.set_minor_locator(NullLocator())
+        axis.grid(True, color="0.9")
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.legend(fontsize=8, frameon=False)
+    for side in (times.yaxis.set_major_formatter, times.yaxis.set_minor_formatter):
+        side("{x:g}")
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def main():
+    """Runs what is missing, prints, writes and draws."""
+    args = arguments()
+    found = measure(args, Store(args.work, ("errors",) if args.measure == "all" else ()))
+    if not found:
+        stop(f"{args.work}: nothing has run yet")
+    draw(args, found, keep_table(table(args, found), args.results, "channel_phi"))
+
+
+if __name__ == "__main__":
+    main()
