@@ -48,7 +48,7 @@ def strength(t):
 
 
 def vortices(x, y):
-    """Vortices of Taylor and Green, velocities at points [...][2]; L and UNIT periodic."""
+    """Vortices of Taylor and Green, velocities at points [...][2]; periodic in L."""
     x, y = 2 * np.pi * x / L, 2 * np.pi * y / L
     return U * np.stack([np.sin(x) * np.cos(y), -np.cos(x) * np.sin(y)], -1)
 
@@ -178,7 +178,7 @@ def prepare(folder, chosen):
 
 
 def run_case(args, folder, case):
-    """Loop time [s], and positions and velocities at the end."""
+    """What LAMMPS's log says of the time, and positions and velocities at the end."""
     fastest = 2 * (1 + SWING) * U    # difference of two velocities
     variables = {"flow": case.flow, "data": f"{case.flow}.data", "out": "dump", "U": U, "L": L, "mu": MU,
                  "swing": SWING, "dt": case.step, "steps": case.steps, "fluid_every": case.every,
@@ -186,17 +186,18 @@ def run_case(args, folder, case):
                  "skin": max(D, 2.2 * case.step * np.sqrt(2) * fastest)}
     log = read_log(run_lammps(args.lmp, HERE / "in.flow_error", variables, folder))
     rows = np.loadtxt(folder / "dump", skiprows=9)
-    return log["loop"], rows[:, 1:3], rows[:, 3:5]
+    return log, rows[:, 1:3], rows[:, 3:5]
 
 
 def measure(args, folder, chosen, exact):
     """{case: row}; in each round every case runs once."""
-    rows = {case: {"loops": []} for case in chosen}
+    rows = {case: {"loops": [], "cpu": []} for case in chosen}
     for n in range(args.rounds):
         print(f"  round {n + 1} of {args.rounds}", file=sys.stderr, flush=True)
         for case, row in rows.items():
-            loop, x, v = run_case(args, folder, case)
-            row["loops"].append(loop)
+            log, x, v = run_case(args, folder, case)
+            row["loops"].append(log["loop"])
+            row["cpu"].append(log["cpu"])
             row["x"], row["v"] = rms(x - exact[case.flow].x) / L, rms(v - exact[case.flow].v) / U
     for case, row in rows.items():
         row["time"] = Spread.of([1e9 * t / (PARTICLES * case.steps) for t in row["loops"]])
@@ -210,16 +211,17 @@ def measure(args, folder, chosen, exact):
 def table(args, rows, exact):
     """The text that is printed and written."""
     agree = max(e.agree for e in exact.values())
+    core = np.median([share for row in rows.values() for share in row["cpu"]])
     lines = [*prose(f"""{processor()}, one core. {PARTICLES} spheres of d = {D / L:g} L with Stokes's drag,
                     relaxation time {TAU / UNIT:.3f} L/U, pass through each other to t = {END:g} L/U;
                     fix nve/sphere/mts. The flow has its shape times 1 + {SWING:g} sin(2 pi t U/L).
-                    vortices: of Taylor and Green, at rest and one to a box of L, from a file with h
+                    vortices: of Taylor and Green, four in the box of L x L, from a file with h
                     between nodes and a frame every f1 L/U; parabola: in closed form, its velocity a
                     variable that is evaluated every f1 L/U (fluid N). Particle steps are f2 d/U; N:
                     of them in a fluid step. Errors are root mean squares over all spheres at the end,
                     beside Runge-Kutta in the closed form, whose step halved moves spheres by
                     {agree:.0e} L. time: LAMMPS's loop per particle and step, median of {args.rounds}
-                    rounds (smallest .. largest), in each of which every case ran once; whole: per
+                    rounds (smallest .. largest), in each of which every case ran once, on a core for {core:.0%} of the time; whole: per
                     particle and L/U. memory: of two frames, {BYTES} bytes a node."""), "",
              f"{'flow':<10}{'h/L':>7}{'f1':>7}{'f2':>5}{'N':>5}{'x err/d':>11}{'x err/L':>11}{'v err/U':>11}"
              f"{'time [ns]':>22}{'whole [us]':>12}{'memory [kB]':>13}"]
