@@ -146,7 +146,7 @@ def trimmed(image):
 def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False, circle=None):
     """Pictures of (title, file) in rows, each of this size in inches; `trim` takes white margins off.
 
-    `circle` is the radius, in pixels, of a grey disc around the middle of each.
+    `circle` is the radius, in pixels, of a grey disc around the middle of each, whose middle square is shown.
     """
     rows = -(-len(pictures) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(size[0] * columns, size[1] * rows), squeeze=False,
@@ -157,7 +157,9 @@ def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False, circle=N
         image = plt.imread(file)
         axis.imshow(trimmed(image) if trim else image)
         if circle:
-            axis.add_patch(plt.Circle((image.shape[1] / 2, image.shape[0] / 2), circle, facecolor="0.85", edgecolor="0.4"))
+            height, width = image.shape[:2]
+            axis.set_xlim((width - height) / 2, (width + height) / 2)
+            axis.add_patch(plt.Circle((width / 2, height / 2), circle, facecolor="0.85", edgecolor="0.4"))
         axis.set_title(title, fontsize=9)
     figure.savefig(path, dpi=110, bbox_inches="tight")
     with Image.open(path) as image:    # a palette that keeps rare colours: a third of the size

@@ -19,7 +19,7 @@ from grids import read_grid
 from report import Run, arguments, conclude, draw_pictures, read_runs, trimmed, values_by_run
 
 RADIUS = 1e-5    # of the fiber [m], as in in.fiber
-PIXEL = 8e-5 / (700 * 1.6)    # size of one in the pictures of layers [m]: 8 L is the length of the box
+PIXEL = 2 * 8e-5 / (700 * 1.6)    # size of one in the pictures of layers [m]: dump image, zoom 1.6, 700 for twice the box
 TIMES = (100, 300, 400, 500)  # of the report's figures 30 and 31
 
 
@@ -141,7 +141,7 @@ def main():
     draw_pictures([(f"{words(run)}, t = {run.pictures()[0][-1]:g} L/U", run.pictures()[1][-1]) for run in runs], 3,
                   out / "ends.png")
     middle = [run for run in runs if parts(run)[1] == 1000]
-    draw_layers(middle, ".xy", out / "figure30.png", (3.4, 2.6), RADIUS / PIXEL)
+    draw_layers(middle, ".xy", out / "figure30.png", (3, 3), RADIUS / PIXEL)
     draw_layers(middle, ".xz", out / "figure31.png", (5, 1.5))
     for run in middle:
         if parts(run)[0] == 8:

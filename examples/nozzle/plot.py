@@ -82,7 +82,7 @@ def late_growth(run):
 def values_of(run, runs):
     """The quantities of report.csv, of one of the runs."""
     length, phi, adhere, clogged = parts(run)
-    low = [other for other in runs if parts(other)[:3] == (length, 25, adhere)]
+    low = [other for other in runs if (*parts(other)[:3], kind(other)) == (length, 25, adhere, kind(run))]
     attached, groups = (run.last(key, 0.25)[0] for key in ("wall_in_aggregates", "wall_aggregates"))
     return {"mean size of aggregates": Ours(*run.last("mean_size", 0.5), run.t[-1]),
             "clogs: 1 or 0": Ours(clogged, t=run.t[-1]),
@@ -159,9 +159,9 @@ def draw_profiles(groups, path):
     figure, axes = plt.subplots(1, len(groups), figsize=(4.5 * len(groups), 3.6), layout="constrained",
                                 squeeze=False, sharey=True)
     for axis, (title, runs, label) in zip(axes[0], groups):
-        several = len({parts(run)[1] for run in runs}) > 1
-        for k, run in enumerate(runs):
-            colour = f"C{k}" if several else "C1" if parts(run)[2] else "C0"
+        phis = sorted({parts(run)[1] for run in runs})
+        for run in runs:
+            colour = f"C{phis.index(parts(run)[1])}" if len(phis) > 1 else "C1" if parts(run)[2] else "C0"
             axis.plot(*size_along(run), linewidth=1, linestyle=":" if kind(run) else "-", color=colour, label=label(run))
         for x in {0.0, float(parts(runs[0])[0])}:
             axis.axvline(x, color="0.6", linestyle="--", linewidth=0.8)
@@ -209,12 +209,12 @@ def main():
     lengths = [group for group in lengths if group[1]]
     if lengths:
         draw_profiles(lengths, out / "figure17.png")
-    phis = sorted((run for run in runs if parts(run)[0] == "1" and parts(run)[2]), key=order)
+    phis = sorted((run for run in runs if parts(run)[0] == "1" and parts(run)[2]), key=lambda run: (parts(run)[1], kind(run)))
     ends, along = ([run for run in phis if run in some] for some in (pictured, profiled))
     if ends:
-        draw_particles(ends, 1, out / "figure19.png")
+        draw_particles(ends, len({kind(run) for run in ends}), out / "figure19.png")
     if along:
-        draw_profiles([("length 1, walls adhere", along, lambda run: f"phi = {parts(run)[1]:g}")], out / "figure20.png")
+        draw_profiles([("length 1, walls adhere", along, lambda run: f"phi = {parts(run)[1]:g}" + kind(run))], out / "figure20.png")
     draw_clogs(runs, out)
     conclude(HERE, values_by_run(runs, lambda run: values_of(run, runs)), [run.cost(scene(run)) for run in runs], out, kept)
 
