@@ -181,7 +181,7 @@ def draw_ends(runs, amap, path):
 
 
 def draw_close_ups(runs, path):
-    """Figure 11: the lower wall in a series of times, a column for each run."""
+    """Figure 11: the lower wall in a series of times, a column for each run, of the report's two phi."""
     series = [[(rf"$\phi$ = {run.phi}, t = {t:.2f} L/U", picture) for t, picture in zip(*run.pictures(".close"))]
               for run in runs]
     draw_pictures([picture for row in zip(*series) for picture in row], len(runs), path, (4, 1.1))
@@ -306,7 +306,7 @@ def main():
     plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "axes.grid": False})
     draw_ends(runs, amap, out / "figure09.png")
     draw_profiles(runs, report, out / "figure10.png")
-    close = [run for run in runs if run.pictures(".close")[1]]
+    close = [run for run in runs if run.phi in ("1.5", "150") and run.pictures(".close")[1]]
     if close:
         draw_close_ups(close, out / "figure11.png")
     names = ["in_aggregates", "aggregates", "mean_size"]
