@@ -208,7 +208,7 @@ def draw_profiles(runs, report, path):
     figure, axes = plt.subplots(len(runs), 2, figsize=(9, 2.15 * len(runs) + 0.5), sharex=True,
                                 sharey="col", squeeze=False, layout="constrained")
     for row, run in zip(axes, runs):
-        said = [r for r in report if r["figure"] == "10" and r["case"] == run.phi]
+        said = [r for r in report if r["figure"] == "10" and r["case"].split("/")[0] == run.phi]
         stills = [r for r in said if r["quantity"] == "still_layer"]
         words = "; ".join(r["words"] for r in said if r not in stills)
         draw_profile(row, run, f"report, t {said[0]['for_t']}: {words}" if words else "")
