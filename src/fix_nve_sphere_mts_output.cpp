@@ -78,10 +78,17 @@ double FixNVESphereMTS::compute_vector(int n)
   return kappa_now;
 }
 
+/* ----------------------------------------------------------------------
+   fluid_every      int, particle steps of a fluid step
+   substep_ghosts   int, ghosts of this rank that a collision step of the last particle step
+                    brings up to date
+------------------------------------------------------------------------- */
+
 void *FixNVESphereMTS::extract(const char *name, int &dim)
 {
   dim = 0;
   if (strcmp(name, "fluid_every") == 0) return &fluid_every;
+  if (strcmp(name, "substep_ghosts") == 0) return &substep_ghosts;
   return nullptr;
 }
 

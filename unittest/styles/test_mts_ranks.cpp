@@ -3,6 +3,9 @@
 
 #include "scenes.h"
 
+#include "fix.h"
+#include "modify.h"
+
 namespace {
 
 const std::string law = jkr + "damping tsuji 0.5 sliding 0.3 twisting yes rolling 0.02 ";
@@ -157,6 +160,60 @@ TEST(RanksMtsRanks, each_of_many_aggregates_moves_as_one_alone)
       EXPECT_LT(v, 1e-8 * largest(reference().v));
       EXPECT_LT(omega, 1e-8 * largest(reference().omega));
     }
+}
+
+// Ghosts, and those of them that a collision step exchanges, of all ranks: in a gas so dilute that
+// none meet, though there are pairs in the neighbour list, and with more spheres in the box.
+struct Ghosts {
+  int all, exchanged;
+};
+
+Ghosts ghosts_of(const std::string &newton, const std::vector<Sphere> &more)
+{
+  Scene scene;
+  scene.newton = newton;
+  scene.processors = std::to_string(number_of_ranks()) + " 1 1";
+  scene.style = pair;
+  std::vector<Sphere> spheres = more;
+  for (int n = 0; n < 16; n++) spheres.push_back({0.25 + 0.5 * n, 0.5 + 1.35 * (n % 4), 6.0});
+  Simulation sim;
+  build(sim, spheres, scene);
+  for (int n = 0; n < 16; n++)
+    set_motion(sim, static_cast<int>(more.size()) + n + 1, {0.0, n % 2 ? 1.0 : -1.0, 0.5},
+               {0.0, 0.0, 1.0});
+  sim.run("neighbor 0.5 bin\n" + mts(16) + "run 2");
+  EXPECT_EQ(sim.value("f_nve[1]"), 16.0);
+  EXPECT_EQ(sim.value("f_nve[3]"), more.size() / 2);    // contacts
+  auto *lammps = sim.lammps();
+  int dim;
+  const auto *exchanged =
+      static_cast<int *>(lammps->modify->get_fix_by_id("nve")->extract("substep_ghosts", dim));
+  int mine[2] = {lammps->atom->nghost, *exchanged}, sum[2];
+  MPI_Allreduce(mine, sum, 2, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  return {sum[0], sum[1]};
+}
+
+// the middle of the box is a border between two ranks, its end one between ranks or images
+TEST(RanksMtsGhosts, collision_steps_exchange_partners_across_a_border_alone)
+{
+  const std::vector<Sphere> in_middle = {{3.51, 2.0, 2.0}, {4.49, 2.0, 2.0}},
+                            at_end = {{0.48, 4.0, 2.0}, {7.5, 4.0, 2.0}},
+                            beside_border = {{3.9, 6.0, 2.0}, {3.9, 6.98, 2.0}};
+  const int borders = number_of_ranks() > 1;
+  for (const auto &newton : both) {
+    SCOPED_TRACE("newton " + newton);
+    const int of_pair = newton == "on" ? 1 : 2;    // off: each rank has the other's sphere
+    const auto gas = ghosts_of(newton, {}), beside = ghosts_of(newton, beside_border),
+               middle = ghosts_of(newton, in_middle), end = ghosts_of(newton, at_end);
+    EXPECT_GE(gas.all, 8);
+    EXPECT_EQ(gas.exchanged, 0);
+    EXPECT_EQ(beside.exchanged, 0);
+    EXPECT_EQ(middle.exchanged, of_pair * borders);
+    EXPECT_EQ(end.exchanged, of_pair);
+    auto four = in_middle;
+    four.insert(four.end(), at_end.begin(), at_end.end());
+    EXPECT_EQ(ghosts_of(newton, four).exchanged, of_pair * (borders + 1));
+  }
 }
 
 }    // namespace
