@@ -161,9 +161,11 @@ TEST(RanksFaults, flow_file_replaced_in_mid_run)
   EXPECT_NE(said.find(file.path), std::string::npos) << said;
 }
 
-// The third frame of a series is read when it is due; the file is another by then
+// The third frame of a series is read when it is due; the file is another by then, or cut off. None
+// of what is there now becomes a velocity.
 TEST(RanksFaults, series_changed_in_mid_run)
 {
+  namespace fs = std::filesystem;
   const std::vector<double> times = {0.0, 0.1, 0.2, 0.3};
   const auto series = [&](double speed) {
     return [&times, speed](VtkhdfWriter &w) {
@@ -176,19 +178,35 @@ TEST(RanksFaults, series_changed_in_mid_run)
           times);
     };
   };
-  TemporaryFile file("apf_series");
-  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, series(2.0));
-  Simulation sim;
-  build(sim, {{4.0, 4.0, 4.0}});
-  sim.run("fix air all flow/field file " + file.path +
-          " density 1e-3 viscosity 1e4\ntimestep 0.01\n"
-          "fix drag all flow/force air drag stokes\nfix nve all nve/sphere\nrun 5");
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (TemporaryFile::rank() == 0)
-    std::filesystem::last_write_time(file.path, std::filesystem::file_time_type::clock::now());
-  MPI_Barrier(MPI_COMM_WORLD);
-  const auto said = sim.error_of("run 20");
-  EXPECT_NE(said.find("was changed after it had been opened"), std::string::npos) << said;
+  const std::string touched = "touched", half = "half of it", empty = "empty",
+                    written = "written anew", renamed = "another by its name";
+  for (const auto &change : {touched, half, empty, written, renamed}) {
+    const TemporaryFile file("apf_series"), other("apf_other_series");
+    file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, series(2.0));
+    other.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, series(5.0));
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}});
+    sim.run("fix air all flow/field file " + file.path +
+            " density 1e-3 viscosity 1e4\ntimestep 0.01\n"
+            "fix drag all flow/force air drag stokes\nfix nve all nve/sphere\nrun 5");
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (TemporaryFile::rank() == 0) {
+      if (change == touched)
+        fs::last_write_time(file.path, fs::file_time_type::clock::now());
+      else if (change == half || change == empty)
+        fs::resize_file(file.path, change == half ? fs::file_size(file.path) / 2 : 0);
+      else if (change == written)
+        fs::copy_file(other.path, file.path, fs::copy_options::overwrite_existing);
+      else
+        fs::rename(other.path, file.path);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    const auto said = sim.error_of("run 20");
+    EXPECT_NE(said.find(file.path), std::string::npos) << change << ": " << said;
+    EXPECT_NE(said.find("was changed after it had been opened"), std::string::npos)
+        << change << ": " << said;
+    EXPECT_NEAR(gather(sim, "v")[0], 2.0, 1e-6) << change;
+  }
 }
 
 TEST(RanksFaults, nan_in_a_field_is_refused)
