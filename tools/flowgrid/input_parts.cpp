@@ -58,8 +58,8 @@ namespace {
     return true;
   }
 
-  // As blocks have them (file="..."), and pieces of files that were written in parallel (Source). By
-  // the parser of VTK: the same name may be written in many ways.
+  // As blocks have them (file="..."), and pieces of files that were written in parallel (Source).
+  // By the parser of VTK: the same name may be written in many ways.
   std::vector<std::string> files_named_in(const fs::path &path)
   {
     std::vector<std::string> names;

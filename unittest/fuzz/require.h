@@ -16,8 +16,8 @@ inline void require(bool fact, const char *what)
   std::abort();
 }
 
-// How many inputs there were and how many of them were right, said at the end: a fuzzer whose inputs
-// are all refused at the door tests nothing, and unittest/fuzz/run does not let it pass.
+// How many inputs there were and how many of them were right, said at the end: a fuzzer whose
+// inputs are all refused at the door tests nothing, and unittest/fuzz/run does not let it pass.
 class Tally {
  public:
   ~Tally()

@@ -217,8 +217,9 @@ TEST_F(Trust, sizes_that_a_case_does_not_have)
   }
 }
 
-// A block of 25000 elements without sense, for which VTK's time goes with the square of their number,
-// named 100 times: a minute or two. It counts once, and with 100 kbytes it has 22 s of the processor.
+// A block of 25000 elements without sense, for which VTK's time goes with the square of their
+// number, named 100 times: a minute or two. It counts once, and with 100 kbytes it has 22 s of the
+// processor.
 TEST_F(Trust, a_case_that_is_read_without_end)
 {
   std::string block =
