@@ -1,6 +1,7 @@
 #include "vtk_guard.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -177,13 +178,20 @@ void check_cells(const std::string &file, vtkDataSet *set)
   auto *grid = vtkUnstructuredGrid::SafeDownCast(set);
   if (!grid || !grid->GetCells()) return;
   check_corners(file, grid->GetCells(), npoints);
+  std::array<bool, 256> known{};
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); c++) {
-    const auto expected = corners_of(grid->GetCellType(c));
+    const int type = grid->GetCellType(c);
+    const auto expected = corners_of(type);
     if (expected && grid->GetCells()->GetCellSize(c) != expected)
       stop(file,
            "cell " + std::to_string(c) + " has " +
                std::to_string(grid->GetCells()->GetCellSize(c)) + " corners, but its type has " +
                std::to_string(expected));
+    if (!known.at(type & 255) && !grid->GetCell(c))
+      stop(file,
+           "cell " + std::to_string(c) + " is of the type " + std::to_string(type) +
+               ", which VTK does not know");
+    known.at(type & 255) = true;
   }
 }
 

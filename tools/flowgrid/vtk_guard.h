@@ -16,8 +16,8 @@ class vtkDataSet;
 
 namespace flowgrid {
 
-// That the corners of cells are points of the mesh, and as many as the types of the cells have: VTK
-// follows what is in the file. Throws std::runtime_error.
+// That the corners of cells are points of the mesh, and as many as the types of the cells have,
+// which VTK knows: it follows what is in the file. Throws std::runtime_error.
 void check_cells(const std::string &file, vtkDataSet *set);
 
 // Once in main(): a crash or exit while VTK reads ends the program with status 1 and a message that

@@ -104,8 +104,8 @@ bool says_what_is_wrong(const std::string &message, const std::string &command)
       reason.erase(at, name.size());
       break;
     }
-  for (const char *fact :
-       {"missing", "does not exist", "out of bounds", "takes no arguments", "coeffs are not set"})
+  for (const char *fact : {"missing", "does not exist", "out of bounds", "takes no arguments",
+                           "coeffs are not set", "overlap by", "pair style  in"})
     if (reason.find(fact) != std::string::npos) return true;
 
   const auto words = fuzz::split(lower(command));

@@ -3,6 +3,7 @@
 // is none.
 
 #include "criterion.h"
+#include "fuzz/child.h"
 #include "scenes.h"
 #include "temporary_file.h"
 
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <set>
 
 #include <sys/resource.h>
@@ -207,6 +209,34 @@ TEST(RanksFaults, series_changed_in_mid_run)
         << change << ": " << said;
     EXPECT_NEAR(gather(sim, "v")[0], 2.0, 1e-6) << change;
   }
+}
+
+// HDF5 1.10 follows the address of a list of names to nowhere. It may crash, but not without a line
+// that names the file.
+TEST(Faults, file_at_which_hdf5_crashes_is_named)
+{
+  const TemporaryFile file("apf_crash");
+  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, [](const double *, double, double *u) {
+      u[0] = 1.0;
+    });
+  });
+  {
+    std::fstream bytes(file.path, std::ios::binary | std::ios::in | std::ios::out);
+    bytes.seekp(0x78);    // addresses of the tree and of the names of the root
+    bytes << std::string(16, '\xff');
+  }
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}});
+  const auto work = [&](int out) {
+    dup2(out, 2);
+    std::cerr << sim.error_of("fix air all flow/field file " + file.path +
+                              " density 1e-3 viscosity 1");
+    return 0;
+  };
+  const auto ended = fuzz::in_child(work, 60, RLIM_INFINITY);
+  EXPECT_NE(ended.text.find("Fix flow/field file " + file.path + ": "), std::string::npos)
+      << ended.death << ended.text;
 }
 
 TEST(RanksFaults, nan_in_a_field_is_refused)

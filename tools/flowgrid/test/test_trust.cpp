@@ -88,6 +88,8 @@ TEST_F(Trust, cells_must_have_the_corners_of_their_type)
 {
   expect_refused(run("few.vtu", vtu("0 1 2", "3", "10")), "few.vtu",
                  "cell 0 has 3 corners, but its type has 4");
+  expect_refused(run("type.vtu", vtu("0 1 2 3", "4", "200")), "type.vtu",
+                 "cell 0 is of the type 200, which VTK does not know");
   expect_refused(run("few.vtu", vtu("0 1 2 3", "4", "12")), "few.vtu", "but its type has 8");
 }
 
