@@ -81,6 +81,11 @@ VtkInput::VtkInput(const std::string &path, const std::vector<std::string> &wall
     read(steps.empty() ? 0 : static_cast<int>(steps.size()) - 1);
     if (vtk->grid->GetNumberOfPoints() > 2000000000 || vtk->grid->GetNumberOfCells() > 400000000)
       stop(file, "has too many points or cells");
+    for (vtkIdType p = 0; p < vtk->grid->GetNumberOfPoints(); p++) {
+      const double *x = vtk->grid->GetPoint(p);
+      if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+        stop(file, "point " + std::to_string(p) + " is not finite");
+    }
     cells = mesh_of(vtk->grid);
     if (vtk->foam) vtk->foam->find_points(vtk->grid);
   });
