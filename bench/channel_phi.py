@@ -23,12 +23,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import NullLocator
 
-from channel_runs import QUANTITIES, channel_schemes, run_channel
-from lammps_runs import HERE, Store, keep_table, processor, prose, stop, verdict
+from channel_runs import PARTICLES, QUANTITIES, TWO_WAYS, channel_schemes, run_channel
+from lammps_runs import HERE, Store, keep_table, median_range, processor, prose, stop, verdict
 
-PARTICLES = 8000
 SHARES = ("in agg.", "wall")     # of QUANTITIES, shown as a share of all particles
-NAMES = {"single rate report": "single rate", "mts tolerance 0.01": "mts"}
 COLOURS = {"single rate": "#000000", "mts": "#D55E00"}
 
 
@@ -59,12 +57,12 @@ def arguments():
 
 def measure(args, store):
     """{phi: {scheme: results by seed}} of the seeds that ran both ways."""
-    schemes = [scheme for scheme in channel_schemes() if scheme.name in NAMES]
+    schemes = [scheme for scheme in channel_schemes() if scheme.name in TWO_WAYS]
     out = {}
     for phi in args.phi:
-        runs = {NAMES[scheme.name]: [] for scheme in schemes}
+        runs = {TWO_WAYS[scheme.name]: [] for scheme in schemes}
         for seed in range(4711, 4711 + args.seeds):
-            both = {NAMES[scheme.name]: store.get(
+            both = {TWO_WAYS[scheme.name]: store.get(
                 f"channel phi={phi} t={args.time:g} np={args.ranks} {scheme.name} {seed}",
                 lambda s=scheme, seed=seed, phi=phi: run_channel(args, s, seed, args.time, phi))
                 for scheme in schemes}
@@ -87,11 +85,6 @@ def scaled(name, values):
 def spread(values):
     """Standard deviation over seeds, nan for a single one."""
     return np.std(values, ddof=1) if len(values) > 1 else np.nan
-
-
-def middle(values, form):
-    """Median and extremes as text."""
-    return f"{np.median(values):{form}} ({min(values):{form}} .. {max(values):{form}})"
 
 
 def table(args, found):
@@ -122,7 +115,7 @@ def table(args, found):
         for name, results in runs.items():
             line = f"{phi:<5}{name:<13}" + cells({q: v.mean() for q, v in by_name[name].items()},
                                                  {q: spread(v) for q, v in by_name[name].items()})
-            line += f"{middle(times[name], '.1f'):>23}"
+            line += f"{median_range(times[name], '.1f'):>23}"
             if name == "mts":
                 gain = np.median(np.array(times["single rate"]) / times["mts"])
                 line += (f"{gain:>10.2f}{np.mean([r['Lambda'] for r in results]):>8.1f}"

@@ -1,13 +1,17 @@
 """The channel of speed_error.py and channel_phi.py: schemes, runs, differences from the single rate."""
 import re
 import shutil
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from lammps_runs import CHANNEL, read_log, read_time, run_lammps, stop
 
+PARTICLES = 8000    # in.channel loses none
 QUANTITIES = {"in agg.": 2, "number": 3, "size": 4, "wall": 5}    # columns of .aggregates
+
+# of channel_schemes(), where two of them are compared
+TWO_WAYS = {"single rate report": "single rate", "mts tolerance 0.01": "mts"}
 
 
 @dataclass(frozen=True)
@@ -31,7 +35,6 @@ def channel_schemes():
                              skin=1 if f2 <= 0.1 else 2)
 
     return [ChannelScheme("single rate", "report", "nve/sphere", 2.5e-5),
-            ChannelScheme("single rate", "half", "nve/sphere", 1.25e-5),
             ChannelScheme("respa", "N=40", "nve/sphere", 1e-3, 40),
             sub("mts collision N", "N=40", "40"),
             sub("mts auto", "0.3", "auto"),
@@ -85,72 +88,84 @@ def channel_rows(args, store):
 
 
 def channel_times(args, store):
-    """Time of each scheme to args.clock, where that has been measured."""
-    return {scheme: store.get(f"time of channel t={args.clock:g} np={args.ranks} {scheme.name}",
-                              lambda s=scheme: read_time(run_channel(args, s, 4711, args.clock)),
-                              "times") for scheme in channel_schemes()}
+    """Times of each scheme to args.clock, a list of rounds as far as they ran; in turn."""
+    times = {scheme: [] for scheme in channel_schemes()}
+    for n in range(args.repeat):
+        for scheme, results in times.items():
+            result = store.get(
+                f"time of channel t={args.clock:g} np={args.ranks} {scheme.name} round {n + 1}",
+                lambda s=scheme: read_time(run_channel(args, s, 4711, args.clock)), "times")
+            results.append(result if result and "loop" in result else None)
+    return times
 
 
 def speed(scheme, own, reference):
     """Cost and speed-up of one scheme, from its time and that of the reference."""
-    if not own or not reference or "loop" not in own or "loop" not in reference:
-        return {}
     row = {"time": own["loop"], "cpu": own["cpu"], "speedup": reference["loop"] / own["loop"]}
     if "Lambda" in own:
         sub_steps = own["x_c"] * own["Lambda"]    # of a particle, in a particle step
         steps = scheme.step / 2.5e-5              # of single rate, in the same time
         row.update(Lambda=own["Lambda"], x_c=own["x_c"], model=own["Lambda"] / (1 + sub_steps),
-                   equal=steps / (1 + sub_steps), c=(steps / row["speedup"] - 1) / sub_steps)
+                   equal=steps / (1 + sub_steps),
+                   c=(steps / row["speedup"] - 1) / sub_steps if sub_steps else np.nan)
     return row
 
 
+def speeds(scheme, own, reference):
+    """What speed() says of each round in which both ran, as lists by name."""
+    rows = [speed(scheme, *both) for both in zip(own, reference) if all(both)]
+    return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Mean of relative differences from single rate at the same seed, and its standard error."""
+
+    mean: float
+    error: float    # nan with one seed
+
+    @classmethod
+    def of(cls, own, reference):
+        """Of a quantity, by seed."""
+        apart = (np.array(own) - reference) / np.mean(reference)
+        return cls(apart.mean(), apart.std(ddof=1) / np.sqrt(len(apart)) if len(apart) > 1 else np.nan)
+
+    def within(self, limit):
+        """True: within two standard errors; False: beyond, by as much; None: the seeds do not tell."""
+        if np.isnan(self.error):
+            return None
+        if abs(self.mean) + 2 * self.error <= limit:
+            return True
+        return None if abs(self.mean) - 2 * self.error <= limit else False
+
+
 def channel_errors(results, reference):
-    """Relative differences from the reference's mean; both lists of results, of the same seeds."""
-    mean = {q: np.mean([r[q] for r in reference]) for q in QUANTITIES}
+    """Differences from the reference; both lists of results, of the same seeds."""
     row = {"seeds": len(results)}
     if "Lambda" in results[0]:
         row["late"] = sum(r["late"] for r in results)
     for q in QUANTITIES:
-        row[q] = np.mean([r[q] for r in results]) / mean[q] - 1 if mean[q] else np.nan
-    row["rms"] = np.sqrt(np.nanmean([row[q] ** 2 for q in QUANTITIES]))
+        values = [r[q] for r in reference]
+        row[q] = Difference.of([r[q] for r in results], values) if any(values) else Difference(np.nan, np.nan)
+    row["rms"] = Difference(*(np.sqrt(np.nanmean([part(row[q]) ** 2 for q in QUANTITIES]))
+                              for part in (lambda d: d.mean, lambda d: d.error)))
     return row
 
 
-def seed_spread(reference):
-    """Standard deviation over seeds, relative to the mean; nan with one seed."""
-    out = {}
-    for q in QUANTITIES:
-        values = np.array([r[q] for r in reference])
-        out[q] = values.std(ddof=1) / values.mean() if len(values) > 1 and values.any() else np.nan
-    out["rms"] = np.sqrt(np.mean([out[q] ** 2 for q in QUANTITIES]))
-    return out
-
-
-@dataclass
-class Channel:
-    """What is known about the channel."""
-
-    rows: list = field(default_factory=list)     # (scheme, row)
-    spread: dict = field(default_factory=dict)   # of the reference over seeds
-
-
 def channel_set(args, store):
-    """Rows of the channel; empty as long as the reference has not run."""
+    """Rows (scheme, row) of the channel; empty as long as the reference has not run."""
     found, times = channel_rows(args, store), channel_times(args, store)
     clock = next(iter(times.values()))
     good = {scheme: {seed: r for seed, r in results.items() if "failed" not in r}
             for scheme, results in found.items()}
     reference = next(iter(good.values()))
-    if not reference:
-        return Channel()
     rows = []
     for scheme, results in found.items():
         both = [seed for seed in good[scheme] if seed in reference]
         if both:
             row = channel_errors([good[scheme][seed] for seed in both],
                                  [reference[seed] for seed in both])
-            rows.append((scheme, dict(row, **speed(scheme, times[scheme], clock))))
-        elif results:
-            failed = [r["failed"] for r in results.values() if "failed" in r]
-            rows.append((scheme, {"failed": failed[0] if failed else "the reference did not run"}))
-    return Channel(rows, seed_spread(list(reference.values())))
+            rows.append((scheme, dict(row, **speeds(scheme, times[scheme], clock))))
+        elif reference and results:
+            rows.append((scheme, {"failed": next(r["failed"] for r in results.values() if "failed" in r)}))
+    return rows

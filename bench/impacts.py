@@ -251,8 +251,8 @@ def read_outcomes(path, scene, impacts):
     return out, i[:, 3] > 0
 
 
-def run_impacts(args, scene, scheme, repeat):
-    """One scheme on one scene: log, fastest loop of `repeat` runs, outcomes."""
+def run_impacts(args, scene, scheme):
+    """One scheme on one scene: log, outcomes."""
     folder = args.work / "scratch"
     folder.mkdir(parents=True, exist_ok=True)
     impacts = draw_impacts(scene, args.impacts)
@@ -265,11 +265,9 @@ def run_impacts(args, scene, scheme, repeat):
                  "law": f"jkr {YOUNG:.12g} {NU} {c.gamma:.12g} {scene.law}".strip(),
                  "check": "no" if scheme.respa else "yes", "integrate": scheme.integrate,
                  "dt": scheme.step, "respa": scheme.respa, "steps": int(round(END / scheme.step))}
-    logs = [read_log(run_lammps(args.lmp, HERE / "in.impacts", variables, folder))
-            for _ in range(repeat)]
+    log = read_log(run_lammps(args.lmp, HERE / "in.impacts", variables, folder))
     outcomes, stuck = read_outcomes(folder / "dump", scene, impacts)
-    return dict(min(logs, key=lambda log: log["loop"]), stuck=stuck.tolist(),
-                outcomes=outcomes.round(9).tolist())
+    return dict(log, stuck=stuck.tolist(), outcomes=outcomes.round(9).tolist())
 
 
 def elastic_scenes():
@@ -336,25 +334,33 @@ def damped_errors(scenes, results, finest, head_on, sticking):
     return row
 
 
+def impact_times(args, store, kind, scenes, schemes):
+    """{scheme: loop times [s] of all scenes together}, a list of rounds as far as they ran; in turn."""
+    times = {scheme: [] for scheme in schemes}
+    for n in range(args.repeat):
+        for scheme, loops in times.items():
+            results = [store.get(
+                f"time of {kind} {args.impacts} {name} {scheme.name} round {n + 1}",
+                lambda scene=scene, scheme=scheme: read_time(run_impacts(args, scene, scheme)), "times")
+                for name, scene in scenes.items()]
+            if all(result and "loop" in result for result in results):
+                loops.append(sum(result["loop"] for result in results))
+    return times
+
+
 def impact_rows(args, store, kind, scenes, omega, errors):
     """Rows {scheme, errors} of one set; rows that did not run are left out."""
-    rows = []
-    for scheme in impact_schemes(omega):
-        results, times = {}, []
-        for name, scene in scenes.items():
-            run = f"{kind} {args.impacts} {name} {scheme.name}"
-            results[name] = store.get(run, lambda scene=scene, scheme=scheme: run_impacts(
-                args, scene, scheme, 1))
-            times.append(store.get(f"time of {run}", lambda scene=scene, scheme=scheme: read_time(
-                run_impacts(args, scene, scheme, args.repeat)), "times"))
+    rows, schemes = [], impact_schemes(omega)
+    for scheme in schemes:
+        results = {name: store.get(f"{kind} {args.impacts} {name} {scheme.name}",
+                                   lambda scene=scene, scheme=scheme: run_impacts(args, scene, scheme))
+                   for name, scene in scenes.items()}
         if any(r is None for r in results.values()):
             continue
         failed = [r["failed"] for r in results.values() if "failed" in r]
-        row = {"failed": failed[0]} if failed else errors(results)
-        if all(t and "loop" in t for t in times):
-            row["time"] = sum(t["loop"] for t in times)
-        rows.append((scheme, row))
-    return rows
+        rows.append((scheme, {"failed": failed[0]} if failed else errors(results)))
+    times = impact_times(args, store, kind, scenes, schemes)
+    return [(scheme, dict(row, time=times[scheme]) if times[scheme] else row) for scheme, row in rows]
 
 
 def elastic_set(args, store):
@@ -374,7 +380,7 @@ def damped_set(args, store):
     scene, omega = scenes["oblique"], Contact(1.5, friction=True).frequency
     kappa = 0.03 if args.quick else 0.01
     finest = store.get(f"damped {args.impacts} finest {kappa}",
-                       lambda: run_impacts(args, scene, single_rate(kappa, omega), 1))
+                       lambda: run_impacts(args, scene, single_rate(kappa, omega)))
     straight = np.linspace(*scene.speeds, args.impacts)[::len(scene.angles)]
     exact = store.get(f"damped {args.impacts} head-on",
                       lambda: {"e": runge_kutta_restitution(straight, ALPHA).tolist()})

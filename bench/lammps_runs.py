@@ -4,6 +4,7 @@ import json
 import os
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import textwrap
@@ -18,13 +19,14 @@ def stop(reason):
     sys.exit(f"{Path(sys.argv[0]).name}: {reason}")
 
 
-def rounds_parser(description, rounds, steps):
-    """Options of a script that measures in rounds; parse_rounds() takes them."""
+def rounds_parser(description, rounds, steps=None):
+    """Options of a script that measures in rounds, of so many steps; parse_rounds() takes them."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--quick", action="store_true", help="two rounds")
     parser.add_argument("--rounds", type=int, default=rounds,
                         help=f"runs of each case (default {rounds})")
-    parser.add_argument("--steps", type=int, default=steps, help=f"steps of a run (default {steps})")
+    if steps:
+        parser.add_argument("--steps", type=int, default=steps, help=f"steps of a run (default {steps})")
     parser.add_argument("--lmp", default=HERE.parent / "lmp",
                         help="LAMMPS that loads APF (default ../lmp)")
     parser.add_argument("--results", type=Path, default=HERE / "results",
@@ -50,6 +52,11 @@ def prose(text):
 def verdict(what, value, target, good):
     """One line: measured, target."""
     return f"{what:<58}{value:>8}   target {target:<18}{'reached' if good else 'missed'}"
+
+
+def median_range(values, form):
+    """Median, smallest and largest as text."""
+    return f"{statistics.median(values):{form}} ({min(values):{form}} .. {max(values):{form}})"
 
 
 def keep_table(text, folder, name):
@@ -99,12 +106,12 @@ def read_log(text):
     """Loop time [s], share of it on a core, and what fix nve/sphere/mts says."""
     loop = re.findall(r"^Loop time of ([\d.e+-]+)", text, re.M)
     found = re.search(r"mts \S+: (\d+) particle steps of \S+, (\d+) collision steps.*\n"
-                      r" +sub-stepped ([\d.]+) %.*contacts found late (\d+)", text)
+                      r" +sub-stepped ([\d.]+) %.*, (\d+) contacts at the end.*contacts found late (\d+)", text)
     cpu = re.findall(r"^([\d.]+)% CPU use", text, re.M)
     out = {"loop": float(loop[-1]), "cpu": float(cpu[-1]) / 100}
     if found:
-        particle, collision, share, late = (float(word) for word in found.groups())
-        out.update(Lambda=collision / particle, x_c=share / 100, late=int(late))
+        particle, collision, share, contacts, late = (float(word) for word in found.groups())
+        out.update(Lambda=collision / particle, x_c=share / 100, contacts=int(contacts), late=int(late))
     return out
 
 

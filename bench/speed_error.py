@@ -9,12 +9,12 @@ Prints, and writes to results/speed_error.txt with a plot in results/speed_error
 
   elastic impacts   restitution and sticking velocity of pairs and at a wall, beside exact values
   damped impacts    oblique, with friction, beside the finest run and a Runge-Kutta integrator
-  channel           aggregates of examples/channel, beside the mean of single-rate runs over seeds
+  channel           aggregates of examples/channel, beside single-rate runs of the same seeds
 
-each with a wall-clock time. Errors do not mind other work on the machine, times do: --measure makes
-runs for the one or the other. Every run leaves a JSON file in DIR (default ../build-speed): the
-command can be interrupted and goes on where it was; what has run is shown.
-Delete DIR after a change of the code. Needs Debian's python3-numpy and python3-matplotlib.
+each with a wall-clock time, the median of N rounds (default 3) in each of which every scheme runs
+once. Errors do not mind other work on the machine, times do: --measure makes runs for the one or the
+other. Every run leaves a JSON file in DIR (default ../build-speed): the command can be interrupted
+and goes on where it was; what has run is shown. Delete DIR after a change of the code. Needs Debian's python3-numpy and python3-matplotlib.
 """
 import argparse
 import os
@@ -22,7 +22,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from channel_runs import Channel, channel_set
+from channel_runs import channel_set
 from impacts import damped_set, elastic_set
 from lammps_runs import HERE, Store, keep_table, stop
 from speed_error_report import draw, report
@@ -41,7 +41,7 @@ def arguments():
     parser.add_argument("--seeds", type=int, help="runs of each channel scheme (default 3)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of the channel (default 1)")
     parser.add_argument("--impacts", type=int, help="impacts of a scene (default 2000)")
-    parser.add_argument("--repeat", type=int, help="runs of each impact scene (default 3)")
+    parser.add_argument("--repeat", type=int, help="rounds in which times are measured (default 3)")
     parser.add_argument("--lmp", default=HERE.parent / "lmp",
                         help="LAMMPS with APF (default ../lmp)")
     parser.add_argument("--work", type=Path, default=HERE.parent / "build-speed",
@@ -49,7 +49,7 @@ def arguments():
     parser.add_argument("--results", type=Path, default=HERE / "results",
                         help="folder for table and plot (default results, beside this)")
     args = parser.parse_args()
-    full, quick = (20.0, 2.0, 3, 2000, 3), (0.5, 0.1, 1, 200, 1)
+    full, quick = (20.0, 2.0, 3, 2000, 3), (0.5, 0.3, 1, 200, 1)
     names = ("time", "clock", "seeds", "impacts", "repeat")
     for name, value in zip(names, quick if args.quick else full):
         if getattr(args, name) is None:
@@ -65,7 +65,7 @@ def collect(args, store):
     elastic = damped = None
     if args.part != "channel":
         elastic, damped = elastic_set(args, store), damped_set(args, store)
-    return elastic or [], damped, channel_set(args, store) if args.part != "impacts" else Channel()
+    return elastic or [], damped, channel_set(args, store) if args.part != "impacts" else []
 
 
 def main():
@@ -79,10 +79,10 @@ def main():
         print("interrupted; the same command goes on from here", file=sys.stderr)
         found = collect(args, Store(args.work, ()))
     elastic, damped, channel = found
-    if not (elastic or damped or channel.rows):
+    if not (elastic or damped or channel):
         stop(f"{args.work}: nothing has run yet")
     text = report(args, *found)
-    draw(*found, keep_table(text, args.results, "speed_error"))
+    draw(args, *found, keep_table(text, args.results, "speed_error"))
 
 
 if __name__ == "__main__":

@@ -5,9 +5,12 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from bars import Spread
 from channel_runs import QUANTITIES
 from impacts import ALPHA, MU, THETA, Contact
-from lammps_runs import processor, prose
+from lammps_runs import median_range, processor, prose
+
+WANTED = 0.01    # of single rate's statistics of aggregates
 
 COLOURS = {"single rate": "#000000", "respa": "#E69F00", "mts collision N": "#0072B2",
            "mts auto": "#009E73", "mts tolerance": "#D55E00", "mts auto, f2": "#CC79A7"}
@@ -23,20 +26,29 @@ def percent(value, digits=2):
 
 
 def number(row, key, form):
-    """A value of a row as text."""
-    return format(row[key], form) if key in row else "-"
+    """A value of a row, or the median of its values, as text."""
+    if key not in row:
+        return "-"
+    return format(np.median(row[key]) if isinstance(row[key], list) else row[key], form)
+
+
+def difference(found):
+    """A difference in percent, its standard error, and whether it is within WANTED."""
+    sign = {True: "y", False: "n", None: "?"}[found.within(WANTED)]
+    return f"{percent(found.mean)} +- {percent(found.error).lstrip('+')} {sign}"
 
 
 def impact_lines(rows, columns):
     """Table of one set of impacts; columns: name -> text of a row."""
-    lines = [f"{'scheme':<17}{'setting':<22}{'time [s]':>9}{'Lambda':>8}{'x_c':>7}"
+    lines = [f"{'scheme':<17}{'setting':<22}{'time [s]':>24}{'Lambda':>8}{'x_c':>7}"
              + "".join(f"{name:>11}" for name in columns) + f"{'late':>6}"]
     for scheme, row in rows:
         head = f"{scheme.family:<17}{scheme.setting:<22}"
         if "failed" in row:
             lines.append(f"{head} failed: {row['failed']}"[:100])
             continue
-        lines.append(head + f"{number(row, 'time', '.3f'):>9}{number(row, 'Lambda', '.1f'):>8}"
+        time = median_range(row["time"], ".3f") if "time" in row else "-"
+        lines.append(head + f"{time:>24}{number(row, 'Lambda', '.1f'):>8}"
                      f"{number(row, 'x_c', '.3f'):>7}"
                      + "".join(f"{text(row):>11}" for text in columns.values())
                      + f"{row['late'] if 'Lambda' in row else '-':>6}")
@@ -76,14 +88,18 @@ def damped_lines(args, known):
             *impact_lines(known["rows"], columns)]
 
 
-def channel_lines(args, channel):
+def channel_lines(args, rows):
     """Text on the channel."""
-    names = "".join(f"{q + ' %':>10}" for q in QUANTITIES)
+    names = "".join(f"{q + ' %':>20}" for q in QUANTITIES)
     lines = [*prose(f"""Channel, phi = 50, to t = {args.time:g} L/U, {args.ranks} rank(s), up to
                     {args.seeds} seed(s): particles in aggregates, aggregates, their mean size and
-                    particles in those on a wall, means over the last fifth, less those of the
-                    single rate at the report's step and the same seeds. The other columns are of
-                    one more run, to t = {args.clock:g}, as times want a quiet machine. Lambda:
+                    particles in those on a wall, means over the last fifth. Each number: mean over
+                    seeds of the relative difference from single rate at the report's step and the
+                    same seed, +- standard error of this mean; y: within {100 * WANTED:g} % by two standard
+                    errors; n: not, by as much; ?: so many seeds do not tell (with few, two standard
+                    errors are less sure than 95 %). The other columns are medians of {args.repeat}
+                    round(s) to t = {args.clock:g}, seed 4711, all schemes in turn, as times want a
+                    quiet machine; time: median (smallest .. largest). Lambda:
                     collision steps of a particle step; x_c: share of particles sub-stepped; equal:
                     the speed-up if a collision step of a particle cost as much as a step of single
                     rate, the report's steps in a particle step / (1 + x_c Lambda); c: what it
@@ -91,39 +107,43 @@ def channel_lines(args, channel):
                     ghosts, no look at the list); model: Lambda/(1 + x_c Lambda), the speed-up over
                     a single rate with the same collision step, with c = 1; cpu: share of the time
                     on a core, well below 100 on a busy machine."""), "",
-             f"{'scheme':<17}{'setting':<9}{'seeds':>5}{names}{'late':>6}{'time [s]':>10}"
+             f"{'scheme':<17}{'setting':<9}{'seeds':>5}{names}{'late':>6}{'time [s]':>22}"
              f"{'Lambda':>8}{'x_c':>7}{'speed-up':>9}{'equal':>7}{'c':>6}{'model':>7}{'cpu':>7}"]
-    for scheme, row in channel.rows:
+    for scheme, row in rows:
         head = f"{scheme.family:<17}{scheme.setting:<9}"
         if "failed" in row:
             lines.append(f"{head} failed: {row['failed']}"[:100])
             continue
+        reference = scheme is rows[0][0]
+        time = median_range(row["time"], ".1f") if "time" in row else "-"
         lines.append(head + f"{row['seeds']:>5}"
-                     + "".join(f"{percent(row[q]):>10}" for q in QUANTITIES)
-                     + f"{number(row, 'late', 'd'):>6}{number(row, 'time', '.1f'):>10}"
+                     + "".join(f"{'-' if reference else difference(row[q]):>20}" for q in QUANTITIES)
+                     + f"{number(row, 'late', 'd'):>6}{time:>22}"
                      f"{number(row, 'Lambda', '.1f'):>8}{number(row, 'x_c', '.3f'):>7}"
                      f"{number(row, 'speedup', '.2f'):>9}{number(row, 'equal', '.2f'):>7}"
                      f"{number(row, 'c', '.2f'):>6}{number(row, 'model', '.2f'):>7}{number(row, 'cpu', '.0%'):>7}")
-    lines.append(f"{'standard deviation':<31}"
-                 + "".join(f"{percent(channel.spread[q]).lstrip('+'):>10}" for q in QUANTITIES))
-    lines += ["", *prose("""Wanted: within 1 % of single rate. The standard deviation is that of single
-                    rate over seeds; a difference well below it says nothing about a scheme.""")]
     return lines
 
 
 def report(args, elastic, damped, channel):
     """The text that is printed and written."""
     blocks = [prose(f"""{processor()}; wall-clock times are LAMMPS's loop times, one core unless
-                    said otherwise, of runs of their own; impacts: least of {args.repeat}. Numbers
-                    beside single rate, respa, N and auto are omega dt of the stiffest mode at rest, beside f2 the
-                    particle step in d/U, else 0.1; late: contacts found late; blind: lookahead no.
+                    said otherwise, of runs of their own: median (smallest .. largest) of
+                    {args.repeat} round(s), in each of which every scheme ran once; impacts: all scenes
+                    of a scheme together. Numbers beside single rate, respa and N are omega dt of the stiffest
+                    mode at rest; those beside auto are its safety, which counts the compression of
+                    the hardest impact in view, too, so that omega dt at rest is smaller (see
+                    Lambda); those beside tolerance are T, those beside f2 the particle step in
+                    d/U, else 0.1 (at the safety 0.15 for impacts, 0.3 for the channel). late: contacts found late. blind: lookahead no, as the report
+                    has it, safety 0.15; contacts that are first seen at the end of a particle step
+                    have gained so much energy that particles may leave the box.
                     Impacts under respa rebuild the neighbour list every particle step: it is
                     checked after the inner steps only.""")]
     if elastic:
         blocks.append(elastic_lines(args, elastic))
     if damped and damped["rows"]:
         blocks.append(damped_lines(args, damped))
-    if channel.rows:
+    if channel:
         blocks.append(channel_lines(args, channel))
     return "\n\n".join("\n".join(block) for block in blocks) + "\n"
 
@@ -132,51 +152,79 @@ def report(args, elastic, damped, channel):
 
 
 def draw_families(axis, rows, error, look):
-    """One line for each family of schemes; says whether there is any."""
-    any_points = False
+    """One line for each family of schemes; error: of a row, as (value, error bar or 0)."""
     for family in COLOURS:
-        points = [(row["time"], row[error]) for scheme, row in rows
-                  if scheme.family == family and "time" in row and row[error] > 0]
-        if points:
-            axis.plot(*zip(*points), marker=MARKERS[family], color=COLOURS[family], **look)
-            any_points = True
-    return any_points
+        points = [(Spread.of(row["time"]), *error(row)) for scheme, row in rows
+                  if scheme.family == family and "time" in row and "failed" not in row]
+        points = [point for point in points if point[1] > 0]
+        if not points:
+            continue
+        times, values, bars = zip(*points)
+        middle = np.array([t.middle for t in times])
+        across = [middle - [t.low for t in times], [t.high for t in times] - middle]
+        values, bars = np.array(values), np.nan_to_num(bars)
+        axis.errorbar(middle, values, xerr=across, marker=MARKERS[family], color=COLOURS[family],
+                      yerr=[np.minimum(bars, 0.9 * values), bars] if bars.any() else None,
+                      elinewidth=0.8, capsize=2, **look)
+
+
+def decades(axis):
+    """Labels at 1, 2, 3 and 5 of each decade of both axes, which may be less than one long."""
+    axis.set(xscale="log", yscale="log")
+    for side in (axis.xaxis, axis.yaxis):
+        side.set_major_formatter("{x:g}")
+        side.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "235" else "")
 
 
 def draw_impacts_panel(axis, elastic, damped):
     """Error of impacts over wall-clock time."""
-    if draw_families(axis, elastic, "mean", {"linestyle": "-"}):
-        axis.set(xscale="log", yscale="log")
+    draw_families(axis, elastic, lambda row: (row["mean"], 0), {"linestyle": "-"})
     if damped:
-        draw_families(axis, damped["rows"], "mean", {"linestyle": ":", "markerfacecolor": "none"})
+        draw_families(axis, damped["rows"], lambda row: (row["mean"], 0),
+                      {"linestyle": ":", "markerfacecolor": "none"})
     axis.plot([], [], "k-", label="elastic: mean |e - exact|, V > 1.2 $V_s$")
     axis.plot([], [], "k:", label="damped, oblique: mean error / V")
-    axis.set(title="impacts", xlabel="wall-clock time [s]", ylabel="mean error [-]")
+    axis.set(title="impacts", xlabel="wall-clock time [s]", ylabel="mean error [-]", xscale="log",
+             yscale="log")
 
 
-def draw_channel_panel(axis, channel):
+def draw_sticking_panel(axis, args, elastic, damped):
+    """Error of the sticking velocity over wall-clock time; what cannot be told from 0 at the bottom."""
+    least = 100 * 0.6 / args.impacts    # one impact more that sticks [%]
+
+    def error(row):
+        return max(abs(100 * row["V_s pair"]), least / 2), 0
+
+    draw_families(axis, elastic, error, {"linestyle": "-"})
+    if damped:
+        draw_families(axis, damped["rows"], error, {"linestyle": ":", "markerfacecolor": "none"})
+    axis.plot([], [], "k-", label="elastic, beside the exact one")
+    axis.plot([], [], "k:", label="damped, beside Runge-Kutta")
+    axis.axhline(1, color="firebrick", linestyle=":", linewidth=0.9, label="wanted: 1 %")
+    axis.axhline(least, color="0.4", linestyle="-.", linewidth=0.9, label="one impact of all; below: none")
+    axis.set(title="sticking velocity of pairs", xlabel="wall-clock time [s]", ylabel="error of $V_s$ [%]")
+    decades(axis)
+
+
+def draw_channel_panel(axis, rows):
     """Difference from single rate over wall-clock time."""
-    rows = [(s, dict(row, rms=100 * row["rms"])) for s, row in channel.rows if "failed" not in row]
-    if draw_families(axis, rows, "rms", {"linestyle": "-"}):
-        axis.set(xscale="log", yscale="log")
-        for side in (axis.xaxis, axis.yaxis):    # may be less than a decade: 2, 3 and 5 of it, too
-            side.set_major_formatter("{x:g}")
-            side.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "235" else "")
-    if rows and "time" in rows[0][1]:
-        axis.axvline(rows[0][1]["time"], color="k", linewidth=0.9, linestyle="--",
+    draw_families(axis, [(s, row) for s, row in rows if s.family != "single rate"],
+                  lambda row: (100 * row["rms"].mean, 100 * row["rms"].error), {"linestyle": "-"})
+    if "time" in rows[0][1]:
+        axis.axvline(np.median(rows[0][1]["time"]), color="k", linewidth=0.9, linestyle="--",
                      label="single rate at the report's step")
-        if not np.isnan(channel.spread["rms"]):
-            axis.axhline(100 * channel.spread["rms"], color="0.4", linestyle="-.", linewidth=0.9,
-                         label="its standard deviation over seeds")
-        axis.axhline(1, color="firebrick", linestyle=":", linewidth=0.9, label="wanted: 1 %")
-    axis.set(title="channel", xlabel="wall-clock time of a shorter run [s]",
+    axis.axhline(100 * WANTED, color="firebrick", linestyle=":", linewidth=0.9, label="wanted: 1 %")
+    axis.set(title="channel; bars: standard error of the mean over seeds",
+             xlabel="wall-clock time of a shorter run [s]",
              ylabel="rms difference of four aggregate statistics [%]")
+    decades(axis)
 
 
-def draw(elastic, damped, channel, path):
-    """Error over wall-clock time, a panel for each part that has run."""
-    parts = [lambda axis: draw_impacts_panel(axis, elastic, damped)] if elastic or damped else []
-    if channel.rows:
+def draw(args, elastic, damped, channel, path):
+    """Error over wall-clock time, panels for each part that has run."""
+    parts = [lambda axis: draw_impacts_panel(axis, elastic, damped),
+             lambda axis: draw_sticking_panel(axis, args, elastic, damped)] if elastic or damped else []
+    if channel:
         parts.append(lambda axis: draw_channel_panel(axis, channel))
     figure, panels = plt.subplots(1, len(parts), figsize=(1.5 + 5 * len(parts), 5.4), squeeze=False)
     for part, axis in zip(parts, panels[0]):
@@ -184,8 +232,7 @@ def draw(elastic, damped, channel, path):
     for axis in panels[0]:
         axis.grid(True, which="major", color="0.9")
         axis.spines[["top", "right"]].set_visible(False)
-        if axis.get_legend_handles_labels()[0]:
-            axis.legend(fontsize=8, frameon=False)
+        axis.legend(fontsize=8, frameon=False)
     handles = [plt.Line2D([], [], color=COLOURS[f], marker=MARKERS[f], label=f) for f in COLOURS]
     figure.legend(handles=handles, loc="lower center", ncol=3 * len(parts), frameon=False, fontsize=9)
     figure.tight_layout(rect=(0, 0.12 / len(parts), 1, 1))
