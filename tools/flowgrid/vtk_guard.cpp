@@ -176,6 +176,8 @@ void check_cells(const std::string &file, vtkDataSet *set)
          {surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips()})
       check_corners(file, cells, npoints);
   auto *grid = vtkUnstructuredGrid::SafeDownCast(set);
+  if (!grid && set->GetNumberOfCells() > 0 && !set->GetCell(0))
+    stop(file, "says that it has cells, but has none");
   if (!grid || !grid->GetCells()) return;
   check_corners(file, grid->GetCells(), npoints);
   std::array<bool, 256> known{};

@@ -83,8 +83,9 @@ VtkInput::VtkInput(const std::string &path, const std::vector<std::string> &wall
       stop(file, "has too many points or cells");
     for (vtkIdType p = 0; p < vtk->grid->GetNumberOfPoints(); p++) {
       const double *x = vtk->grid->GetPoint(p);
-      if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
-        stop(file, "point " + std::to_string(p) + " is not finite");
+      for (int c = 0; c < 3; c++)
+        if (!(std::fabs(x[c]) < 1e100))
+          stop(file, "point " + std::to_string(p) + " is not finite, or beyond 1e100");
     }
     cells = mesh_of(vtk->grid);
     if (vtk->foam) vtk->foam->find_points(vtk->grid);

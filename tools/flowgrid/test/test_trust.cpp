@@ -93,6 +93,30 @@ TEST_F(Trust, cells_must_have_the_corners_of_their_type)
   expect_refused(run("few.vtu", vtu("0 1 2 3", "4", "12")), "few.vtu", "but its type has 8");
 }
 
+TEST_F(Trust, points_must_be_numbers_that_make_a_mesh)
+{
+  for (const std::string x : {"1e200", "-1e101"}) {
+    auto text = vtu("0 1 2 3", "4", "10");
+    const std::string last = "0 0 1</DataArray></Points>";
+    ASSERT_NE(text.find(last), std::string::npos);
+    text.replace(text.find(last), 5, "0 0 " + x);
+    expect_refused(run("far.vtu", text), "far.vtu", "point 3 is not finite, or beyond 1e100");
+  }
+}
+
+// All points of a solid cell in a plane, and all in one: no cell holds a node.
+TEST_F(Trust, cells_without_a_volume)
+{
+  for (const std::string z : {"0 0 0", "1 1 0"}) {
+    auto text = vtu("0 1 2 3", "4", "10");
+    const std::string last = "0 0 1</DataArray></Points>";
+    text.replace(text.find(last), 5, z);
+    const auto result = run("flat.vtu", text);
+    EXPECT_TRUE(result.status == 0 || result.status == 1) << result.text;
+    EXPECT_EQ(result.text.find("damaged"), std::string::npos) << result.text;
+  }
+}
+
 TEST_F(Trust, lists_of_corners_must_ascend)
 {
   expect_refused(run("end.vtu", vtu("0 1 2 3 0 1 2 3", "-4 8", "10 10", "2")), "end.vtu", "");
