@@ -247,11 +247,11 @@ inline std::vector<Row> table(const Files &files)
     row.no_data = "";
     row.begin = 1e-3;
   }
-  {
-    auto &row = add("fix nve/sphere/mts collision auto");
+  for (const std::string how : {"auto", "tolerance 0.01"}) {
+    auto &row = add("fix nve/sphere/mts collision " + how);
     row.start = box("p p p") + spheres(aggregate) + pair_of(lossy);
-    row.integrators = {"mts auto"};
-    row.outputs = {{"f_nve[1]"}, {"f_nve[3]"}};
+    row.integrators = {"mts " + how};
+    row.outputs = {{"f_nve[1]"}, {"f_nve[3]"}, {"f_nve[4]"}};
   }
   for (auto &row : rows) {
     row.styles += loads;
@@ -268,9 +268,9 @@ inline std::string integrate(const std::string &name)
   if (name == "respa")
     return "fix nve all nve/sphere\ntimestep " + digits(inner * dt) + "\nrun_style respa 2 " +
         std::to_string(inner) + " pair 1\n";
-  if (name == "mts auto")
-    return "fix nve all nve/sphere/mts collision auto\ntimestep " + digits(inner * dt) + "\n";
-  return mts(inner);
+  if (name == "mts") return mts(inner);
+  return "fix nve all nve/sphere/" + name.substr(0, 4) + "collision " + name.substr(4) +
+      "\ntimestep " + digits(inner * dt) + "\n";
 }
 
 }    // namespace matrix
