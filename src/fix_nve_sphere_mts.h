@@ -109,6 +109,7 @@ class FixNVESphereMTS : public Fix {
   void parse(int, char **);
   void find_slow_largest();
   void choose_steps();
+  void fit_due();
   apf::Slow slow_of(int i, bool all = false) const;
   double contact_share(int i) const;
   void kick_atom(int i, double time);

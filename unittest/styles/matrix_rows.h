@@ -262,11 +262,11 @@ inline std::vector<Row> table(const Files &files)
     row.no_data = "";
     row.begin = 1e-3;
   }
-  {
-    auto &row = add("fix nve/sphere/mts collision auto");
+  for (const std::string how : {"auto", "tolerance 0.01"}) {
+    auto &row = add("fix nve/sphere/mts collision " + how);
     row.start = box("p p p") + spheres(aggregate) + pair_of(lossy);
-    row.integrators = {"mts auto"};
-    row.outputs = {{"f_nve[1]"}, {"f_nve[3]"}};
+    row.integrators = {"mts " + how};
+    row.outputs = {{"f_nve[1]"}, {"f_nve[3]"}, {"f_nve[4]"}};
   }
   for (auto &row : rows) row.styles += loads;
   return rows;

@@ -1,10 +1,13 @@
 // fix nve/sphere/mts knows nothing of ranks, boundaries, cells and who owns a pair: each scene
-// equals the same scene computed well inside one box by velocity Verlet at the collision step.
+// equals the same scene computed well inside one box by velocity Verlet at the collision step, or,
+// where the fix chooses that step, by one rank.
 
 #include "scenes.h"
 
 #include "fix.h"
 #include "modify.h"
+
+#include <tuple>
 
 namespace {
 
@@ -22,6 +25,9 @@ struct Journey {
   std::string commands;
   std::vector<double> from = {4.0, 4.0, 4.0}, v = {0.0, 0.0, 0.0};
 };
+
+const std::vector<std::vector<double>> places = {
+    {4.0, 4.0, 4.0}, {2.0, 2.0, 2.0}, {7.875, 7.75, 0.125}, {3.625, 7.875, 4.25}};
 
 void set_out(Simulation &sim, const Journey &journey)
 {
@@ -42,9 +48,8 @@ void set_out(Simulation &sim, const Journey &journey)
 }
 
 // positions are relative to the first sphere, velocities to the journey
-State travelled(const Journey &journey, const std::string &integrate, int steps)
+State travelled(Simulation &sim, const Journey &journey, const std::string &integrate, int steps)
 {
-  Simulation sim;
   set_out(sim, journey);
   sim.run("neighbor 0.5 bin\n" + journey.commands + integrate + "run " + std::to_string(steps));
   State state = state_of(sim);
@@ -55,6 +60,12 @@ State travelled(const Journey &journey, const std::string &integrate, int steps)
       state.v[3 * n + c] -= journey.v[c];
     }
   return state;
+}
+
+State travelled(const Journey &journey, const std::string &integrate, int steps)
+{
+  Simulation sim;
+  return travelled(sim, journey, integrate, steps);
 }
 
 const State &reference()
@@ -79,8 +90,7 @@ TEST(RanksMtsRanks, the_bullet_hits)
 TEST(RanksMtsRanks, aggregate_across_ranks_and_boundaries)
 {
   for (const auto &newton : both)
-    for (const std::vector<double> &from : std::vector<std::vector<double>>{
-             {4.0, 4.0, 4.0}, {2.0, 2.0, 2.0}, {7.875, 7.75, 0.125}, {3.625, 7.875, 4.25}}) {
+    for (const auto &from : places) {
       Journey journey;
       journey.scene.newton = newton;
       journey.from = from;
@@ -125,6 +135,81 @@ TEST(RanksMtsRanks, neighbour_lists_built_often)
   journey.v = {48.0, -32.0, 64.0};
   journey.commands = "neigh_modify delay 0 every 1 check no binsize 2\natom_modify sort 1 1.0\n";
   expect_reference(journey, 1e-7);
+}
+
+// All ranks choose the same number of collision steps, and the one that a single rank chooses: it
+// follows the bullet, and the contact that asks for the finest step is on one of the ranks only.
+TEST(RanksMtsRanks, the_number_of_collision_steps_is_that_of_one_rank)
+{
+  for (const std::string how : {"auto", "tolerance 0.01"}) {
+    const std::string integrate =
+        "fix nve all nve/sphere/mts collision " + how + "\ntimestep " + digits(64 * dt) + "\n";
+    for (const auto &newton : both)
+      for (const auto &from : places) {
+        SCOPED_TRACE(how + " " + newton + " " + digits(from[0]));
+        Journey journey;
+        journey.scene.newton = newton;
+        journey.from = from;
+        const auto outcome = [&](MPI_Comm ranks) {
+          Simulation sim({}, ranks);
+          const State state = travelled(sim, journey, integrate, 25);
+          return std::make_tuple(state, sim.value("f_nve[1]"), sim.value("f_nve[4]"));
+        };
+        const auto [one, last, all] = outcome(MPI_COMM_SELF);
+        const auto [state, last_here, all_here] = outcome(MPI_COMM_WORLD);
+        expect_same(state, one, 1e-9);
+        EXPECT_EQ(last_here, last);
+        EXPECT_EQ(all_here, all);
+        EXPECT_GT(std::fabs(all - 25 * last), 5.0) << "of many numbers";
+        EXPECT_GT(all, 50.0);
+      }
+  }
+}
+
+// The kick of a touch or of an end may be half in one particle step and half in the next, whose
+// collision steps are of another length: what is given is one impulse. Pairs in which either sphere
+// is of another rank, across the middle or the border of the box, and a wall; in closed form e^2 =
+// 1 - (V_s/V)^2.
+TEST(RanksMtsRanks, impacts_between_steps_of_two_lengths)
+{
+  const Material material;
+  const double ratio = 1.5, exact = std::sqrt(1.0 - 1.0 / (ratio * ratio));
+  struct Way {
+    std::string newton, how;
+    double center;    // of the pair along x; 0: one sphere and the wall
+  };
+  const std::string coarse = "auto safety 0.1", fine = "tolerance 0.0005";
+  for (const auto &[newton, how, center] :
+       {Way{"on", coarse, 4.0}, Way{"off", fine, 4.0}, Way{"on", fine, 7.9},
+        Way{"off", coarse, 7.9}, Way{"on", coarse, 0.0}, Way{"on", fine, 0.0}}) {
+    SCOPED_TRACE(newton + " " + how + " " + digits(center));
+    const bool wall = center == 0.0;
+    const auto curve = wall ? material.wall() : material.pair();
+    const double V = ratio *
+        std::sqrt(2.0 * 0.935503 * curve.F_C() * curve.delta_C() / (pi / (wall ? 6.0 : 12.0)));
+    for (int n = 0; n < 12; n++) {
+      const double gap = 0.01 * (1.0 + n / 12.0) + 1e-5;
+      Scene scene;
+      scene.newton = newton;
+      scene.boundary = "p p f";
+      scene.processors = std::to_string(number_of_ranks()) + " 1 1";
+      scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr +
+          "\nfix wall all wall/levelset plane z 0 NULL" + jkr + "\nneighbor 2.0 bin\n";
+      const double x = center - 0.5 * (1.0 + gap);
+      Simulation sim;
+      build(sim,
+            wall ? std::vector<Sphere>{{4.0, 4.0, 0.5 + gap}}
+                 : std::vector<Sphere>{{x, 4.0, 4.0}, {std::fmod(x + 1.0 + gap, 8.0), 4.0, 4.0}},
+            scene);
+      set_motion(sim, 1, {wall ? 0.0 : 0.5 * V, 0.0, wall ? -V : 0.0}, {0.0, 0.0, 0.0});
+      if (!wall) set_motion(sim, 2, {-0.5 * V, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      sim.run("fix nve all nve/sphere/mts collision " + how + "\ntimestep " + digits(0.01 / V) +
+              "\nrun 40");
+      const auto v = gather(sim, "v");
+      EXPECT_NEAR((wall ? v[2] : v[3] - v[0]) / V, exact, 5e-4) << n;
+      EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+    }
+  }
 }
 
 // So many contacts that collision steps are taken tile by tile (contact/islands.h), but for
