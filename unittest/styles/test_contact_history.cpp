@@ -206,10 +206,10 @@ State interior_twin(double overlap)
   return state_of(sim);
 }
 
-void expect_unchanged(const State &now, const State &twin)
+void expect_unchanged(const std::string &way, const State &now, const State &twin)
 {
   expect_same_loads(now, twin, tight);
-  expect_criterion("C10 styles: change of force and torque on the way, of them",
+  expect_criterion("C10 styles: change of force and torque " + way + ", of them",
                    std::max(difference(now.f, twin.f), difference(now.torque, twin.torque)), 0.0,
                    tight);
 }
@@ -236,9 +236,11 @@ TEST(RanksContactHistory, springs_travel_through_periodic_cells_and_ranks)
       Scene scene;
       scene.newton = newton;
       SCOPED_TRACE(newton + " " + velocity);
-      expect_unchanged(travelled(squeezed, scene, often, velocity), twin);
+      expect_unchanged("through cells and ranks", travelled(squeezed, scene, often, velocity),
+                       twin);
       scene.before = "atom_modify sort 7 1.0";
-      expect_unchanged(travelled(squeezed, scene, often, velocity), twin);
+      expect_unchanged("through cells and ranks", travelled(squeezed, scene, often, velocity),
+                       twin);
     }
 }
 
@@ -252,7 +254,8 @@ TEST(RanksContactHistory, springs_travel_along_each_decomposition)
     Scene scene;
     scene.processors = processors;
     SCOPED_TRACE(processors);
-    expect_unchanged(travelled(squeezed, scene, every_step, "64 64 64"), twin);
+    expect_unchanged("along each division into ranks",
+                     travelled(squeezed, scene, every_step, "64 64 64"), twin);
   }
 }
 
@@ -266,7 +269,7 @@ TEST(RanksContactHistory, springs_travel_through_a_tiled_decomposition)
                               "bin\nneigh_modify delay 0 every 1 check no binsize 2\n"
                               "fix rcb all balance 50 1.0 rcb\n";
     SCOPED_TRACE(newton);
-    expect_unchanged(travelled(squeezed, scene, tiled, "64 32 16"), twin);
+    expect_unchanged("through tiles", travelled(squeezed, scene, tiled, "64 32 16"), twin);
   }
 }
 
@@ -287,7 +290,7 @@ TEST(RanksContactHistory, stretched_necks_travel_too)
   const State twin = loads("0 0 0");
   ASSERT_GT(largest(twin.torque), 0.1);
   EXPECT_LT(twin.f[0] + twin.f[1] + twin.f[2], 0.0);    // pulled back
-  expect_unchanged(loads("64 -32 16"), twin);
+  expect_unchanged("of a stretched neck through cells and ranks", loads("64 -32 16"), twin);
 }
 
 // ---------------------------------------------------------------------------------------------
