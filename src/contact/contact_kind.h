@@ -33,8 +33,8 @@ struct ContactKind {
 };
 
 // The kinds in use, each with the number of its contacts, and the last one met at each place of a
-// hash. A kind that was pushed from there while it has contacts may be in here twice. A Kind is what
-// kernels read, `constants`, and the `rest`.
+// hash. A kind that was pushed from there while it has contacts may be in here twice. A Kind is
+// what kernels read, `constants`, and the `rest`.
 template <class Kind> class Kinds {
  public:
   const auto &constants(int n) const { return rows[n].constants; }
