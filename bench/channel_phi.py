@@ -24,7 +24,7 @@ import numpy as np
 from matplotlib.ticker import NullLocator
 
 from channel_runs import PARTICLES, QUANTITIES, TWO_WAYS, channel_schemes, run_channel
-from lammps_runs import HERE, Store, keep_table, median_range, processor, prose, stop
+from lammps_runs import HERE, Store, keep_table, median_range, processor, prose, stop, verdict
 
 SHARES = ("in agg.", "wall")     # of QUANTITIES, shown as a share of all particles
 COLOURS = {"single rate": "#000000", "mts": "#D55E00"}
@@ -94,14 +94,14 @@ def table(args, found):
                     2.5e-5 L/U; mts: particle step 1e-3 L/U, collision tolerance 0.01. In aggregates and
                     on walls: per cent of all particles in aggregates, in those on a wall; means
                     over the last fifth of the time and over seeds, +- standard deviation over
-                    seeds; mts - single: mean of the differences of runs with the same seed, +- its
-                    standard error. Times are LAMMPS's loop times, median (smallest .. largest);
+                    seeds; differs by: mean of mts / single - 1 of runs with the same seed, +- its
+                    standard error; reached: with twice that within 1 %. Times are LAMMPS's loop times, median (smallest .. largest);
                     speed-up: median of the ratios of runs of the same seed. Lambda: collision steps
                     of a particle step; x_c: share of particles sub-stepped; late: contacts found
                     late; cpu: least share of the time on a core."""), "",
              f"{'phi':<5}{'':<13}{'in aggregates %':>17}{'number':>16}{'size':>16}{'on walls %':>17}"
              f"{'time [s]':>23}{'speed-up':>10}{'Lambda':>8}{'x_c':>7}{'late':>6}{'cpu':>6}"]
-    digits = {"in agg.": 2, "number": 1, "size": 1, "wall": 2}
+    digits, verdicts = {"in agg.": 2, "number": 1, "size": 2, "wall": 2}, []
 
     def cells(values, error):
         widths = (17, 16, 16, 17)
@@ -123,11 +123,12 @@ def table(args, found):
             else:
                 line += " " * 31
             lines.append(line + f"{min(r['cpu'] for r in results):>6.0%}")
-        apart = {q: by_name["mts"][q] - by_name["single rate"][q] for q in QUANTITIES}
-        lines += [f"{'':<5}{'mts - single':<13}" + cells(
-            {q: v.mean() for q, v in apart.items()},
-            {q: spread(v) / np.sqrt(len(v)) for q, v in apart.items()}), ""]
-    return "\n".join(lines[:-1]) + "\n"
+        apart = {q: 100 * (by_name["mts"][q] / by_name["single rate"][q] - 1) for q in QUANTITIES}
+        error = {q: spread(v) / np.sqrt(len(v)) for q, v in apart.items()}
+        lines += [f"{'':<5}{'differs by %':<13}" + cells({q: v.mean() for q, v in apart.items()}, error), ""]
+        verdicts += [verdict(f"phi = {phi}, {q}: mts beside single rate", f"{apart[q].mean():+.2f} %",
+                             f"1 %, +- {error[q]:.2f}", abs(apart[q].mean()) + 2 * error[q] <= 1) for q in QUANTITIES]
+    return "\n".join(lines + verdicts) + "\n"
 
 
 def draw(args, found, path):

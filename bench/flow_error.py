@@ -221,8 +221,8 @@ def table(args, rows, exact):
                     of them in a fluid step. Errors are root mean squares over all spheres at the end,
                     beside Runge-Kutta in the closed form, whose step halved moves spheres by
                     {agree:.0e} L. time: LAMMPS's loop per particle and step, median of {args.rounds}
-                    rounds (smallest .. largest), in each of which every case ran once, on a core for {core:.0%} of the time; whole: per
-                    particle and L/U. memory: of two frames, {BYTES} bytes a node."""), "",
+                    rounds (smallest .. largest), in each of which every case ran once, on a core for
+                    {core:.0%} of the time; whole: per particle and L/U. memory: of two frames, {BYTES} bytes a node."""), "",
              f"{'flow':<10}{'h/L':>7}{'f1':>7}{'f2':>5}{'N':>5}{'x err/d':>11}{'x err/L':>11}{'v err/U':>11}"
              f"{'time [ns]':>22}{'whole [us]':>12}{'memory [kB]':>13}"]
     last = None

@@ -71,6 +71,10 @@ class Run:
         blocks = read_blocks(self.path.with_suffix(suffix))
         return np.array([step for step, _ in blocks]) / self.unit, [rows for _, rows in blocks]
 
+    def totals(self, suffix):
+        """What the line before the last block of another file tells after step and number of rows."""
+        return apf_read.whole_blocks(self.path.with_suffix(suffix))[-1].totals
+
     def pictures(self, kind=""):
         """Times and paths of the pictures NAME{kind}.STEP.png."""
         paths = sorted(self.path.parent.glob(f"{self.path.stem}{kind}.{'[0-9]' * 9}.png"))
@@ -87,13 +91,15 @@ class Run:
         return ends[-1] if ends else ""
 
     def cost(self, words):
-        """Row of runs.csv: `words`, the law and the timestep of the log, and what all pieces cost together.
+        """Row of runs.csv: `words`, then law, drag, inlet and timestep of the log, and what all pieces cost together.
 
         Times are those of the steps which the log has a time for, scaled to all, if these are
         more than half: a piece that was ended from outside has none.
         """
         text = self.log()
         law = re.findall(r"^pair_coeff +1 1 ([^$\n]+)$", text, re.M)
+        drag = re.findall(r"^fix +drag all flow/force \S+ (drag [^$\n]+)$", text, re.M)
+        inlet = re.findall(r"^fix +in all inlet/flow x (\S+) \S+ ([a-z]+) ([^$\s]+) (?:every (\d+) )?diameter [^$\n]+$", text, re.M)
         step = re.findall(r"^timestep +([^$\n]+)$", text, re.M)
         loops = np.array(re.findall(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps(?s:.*?)^ *(\S+)% CPU use",
                                     text, re.M), dtype=float).reshape(-1, 4)
@@ -106,7 +112,10 @@ class Run:
                 used = seconds * ranks * share / 100
                 row.update({COSTS[0]: f"{seconds.sum() * scale:.0f}", COSTS[1]: f"{used.sum() * scale:.0f}"})
         row[COSTS[2]] = memory(text)
-        settings = [words, *law[-1:], *(f"timestep {float(number):.4g}" for number in step[-1:])]
+        settings = [words, *law[-1:], *drag[-1:],
+                    *(f"inlet at x = {float(x):g}, {kind} {value}" + (f" every {every} steps" if every else "")
+                      for x, kind, value, every in inlet[-1:]),
+                    *(f"timestep {float(number):.4g}" for number in step[-1:])]
         return {**row, "parameters": "; ".join(part.strip() for part in settings)}
 
 
@@ -134,8 +143,11 @@ def trimmed(image):
     return image[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1] if len(rows) else image
 
 
-def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False):
-    """Pictures of (title, file) in rows, each of this size in inches; `trim` takes white margins off."""
+def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False, circle=None):
+    """Pictures of (title, file) in rows, each of this size in inches; `trim` takes white margins off.
+
+    `circle` is the radius, in pixels, of a grey disc around the middle of each, whose middle square is shown.
+    """
     rows = -(-len(pictures) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(size[0] * columns, size[1] * rows), squeeze=False,
                                 layout="constrained")
@@ -144,6 +156,10 @@ def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False):
     for axis, (title, file) in zip(axes.flat, pictures):
         image = plt.imread(file)
         axis.imshow(trimmed(image) if trim else image)
+        if circle:
+            height, width = image.shape[:2]
+            axis.set_xlim((width - height) / 2, (width + height) / 2)
+            axis.add_patch(plt.Circle((width / 2, height / 2), circle, facecolor="0.85", edgecolor="0.4"))
         axis.set_title(title, fontsize=9)
     figure.savefig(path, dpi=110, bbox_inches="tight")
     with Image.open(path) as image:    # a palette that keeps rare colours: a third of the size

@@ -52,6 +52,28 @@ void CellGrid::set_up(int reach)
   }
 }
 
+// to other ranks: what a cell has
+void CellGrid::share_anew(int reach)
+{
+  const auto old2d = std::move(grid2d);
+  const auto old3d = std::move(grid3d);
+  before = std::move(values);
+  set_up(reach);
+  int largest, all;
+  auto remap = [&](auto &grid, const auto &old) {
+    grid->setup_remap(old.get(), largest, all);
+    std::vector<double> buf(static_cast<size_t>(columns) * largest),
+        received(static_cast<size_t>(columns) * all);
+    grid->remap(grid->FIX, owner, which, columns, sizeof(double), buf.data(), received.data(),
+                MPI_DOUBLE);
+  };
+  if (flat)
+    remap(grid2d, old2d);
+  else
+    remap(grid3d, old3d);
+  before = std::vector<double>();
+}
+
 void CellGrid::allocate(int reach)
 {
   const Domain *domain = lmp->domain;
@@ -173,6 +195,12 @@ void CellGrid::pack(double *buf, int count, const int *list) const
 {
   for (int k = 0; k < count; k++)
     buf = std::copy_n(&values[static_cast<size_t>(columns) * list[k]], columns, buf);
+}
+
+void CellGrid::pack_before(double *buf, int count, const int *list) const
+{
+  for (int k = 0; k < count; k++)
+    buf = std::copy_n(&before[static_cast<size_t>(columns) * list[k]], columns, buf);
 }
 
 void CellGrid::unpack_set(const double *buf, int count, const int *list)

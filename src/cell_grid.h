@@ -26,6 +26,7 @@ class CellGrid {
   // that of a particle that are read or written, the particle no more than half the neighbor skin
   // outside its rank's part of the box. Collective.
   void set_up(int reach);
+  void share_anew(int reach);    // ... with the values of before; ghosts are 0
 
   const std::array<int, 3> n;         // cells of the whole grid
   const int columns;                  // numbers of a cell
@@ -86,6 +87,7 @@ class CellGrid {
   void pack(double *buf, int n, const int *list) const;
   void unpack_set(const double *buf, int n, const int *list);
   void unpack_add(const double *buf, int n, const int *list);
+  void pack_before(double *buf, int n, const int *list) const;    // see share_anew()
   double memory_usage() const;
 
  private:
@@ -96,7 +98,7 @@ class CellGrid {
   int size[3] = {};
   std::unique_ptr<Grid2d> grid2d;
   std::unique_ptr<Grid3d> grid3d;
-  std::vector<double> values, out, in;
+  std::vector<double> values, before, out, in;
   std::vector<double *> lines, cells;
   std::vector<double **> planes, cell_lines;
   std::vector<double ***> cell_planes;

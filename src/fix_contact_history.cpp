@@ -30,7 +30,7 @@ FixContactHistory::FixContactHistory(LAMMPS *lmp, int narg, char **arg) :
 
 int FixContactHistory::setmask()
 {
-  return FixContacts::setmask() | PRE_NEIGHBOR | MIN_PRE_NEIGHBOR;
+  return FixContacts::setmask() | PRE_NEIGHBOR | MIN_PRE_NEIGHBOR | INITIAL_INTEGRATE_RESPA;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -42,6 +42,9 @@ void FixContactHistory::init()
     error->all(FLERR, Error::NOLASTLINE,
                "Fix contact/history is internal to pair style granular/adhesive: use that instead");
   const auto *respa = dynamic_cast<Respa *>(update->integrate);
+  outermost = respa ? respa->nlevels - 1 : -1;
+  force_reneighbor = respa ? 1 : 0;
+  next_reneighbor = -1;
   if (respa && respa->level_pair < 0)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair granular/adhesive acts on one level of run_style respa: use keyword pair, not "
@@ -63,6 +66,12 @@ void FixContactHistory::init()
 int FixContactHistory::level() const
 {
   return dynamic_cast<Respa *>(update->integrate)->level_pair;
+}
+
+void FixContactHistory::initial_integrate_respa(int /*vflag*/, int ilevel, int /*iloop*/)
+{
+  if (ilevel == outermost && lists.too_old_for_step(level() < outermost))
+    next_reneighbor = update->ntimestep;
 }
 
 bool FixContactHistory::stores_alone() const
@@ -280,6 +289,12 @@ void FixContactHistory::post_neighbor()
 {
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) atom->radius[i] -= radius_growth;
   pair->list_was_built();
+  if (outermost >= 0) lists.list_was_built();
+}
+
+double FixContactHistory::memory_usage()
+{
+  return FixContacts::memory_usage() + lists.memory_usage();
 }
 
 void FixContactHistory::before_storing()

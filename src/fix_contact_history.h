@@ -9,6 +9,8 @@ FixStyle(contact/history,FixContactHistory);
 
 #include "fix_contacts.h"
 
+#include "respa_lists.h"
+
 namespace LAMMPS_NS {
 
 // Serves one pair style granular/adhesive, which creates it: keeps its contacts, makes the
@@ -19,11 +21,13 @@ class FixContactHistory : public FixContacts {
   FixContactHistory(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
+  void initial_integrate_respa(int, int, int) override;
   void setup_pre_exchange() override;
   void setup_pre_neighbor() override { pre_neighbor(); }
   void pre_neighbor() override;
   void min_pre_neighbor() override { pre_neighbor(); }
   void post_neighbor() override;
+  double memory_usage() override;
 
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
@@ -100,6 +104,8 @@ class FixContactHistory : public FixContacts {
   void share_velocities() override;
 
   class PairGranularAdhesive *pair = nullptr;
+  int outermost = -1;    // level of run_style respa, if that integrates
+  RespaLists lists{lmp, "Pair granular/adhesive"};
   double radius_growth = 0.0;
   std::vector<double> counts, pair_counts;
   // what communication carries: numbers [local and ghost atoms][columns], else velocities and

@@ -146,11 +146,16 @@ void FixContacts::pre_exchange()
 void FixContacts::post_run()
 {
   pre_exchange();
+  velocities.remember(atom, due_loads());
+}
+
+std::vector<double> FixContacts::due_loads()
+{
   std::vector<double> loads(3 * static_cast<size_t>(atom->nlocal + atom->nghost), 0.0);
   for (const auto &load : due)
     for (int c = 0; c < 3; c++) loads[3 * load.row + c] += load.f[c];
   collect_due(loads);
-  velocities.remember(atom, loads);
+  return loads;
 }
 
 void FixContacts::write_restart(FILE *fp)

@@ -62,6 +62,8 @@ class FixContacts : public Fix {
   virtual void settle_bridges() {}
   virtual double contacts_here() const = 0;      // of this rank; shared ones count by halves
   bigint late_so_far() const { return late; }    // first seen deeper than a step can bring them
+  bool has_due() const { return !due.empty(); }
+  std::vector<double> due_loads();    // [local and ghost atoms][3], those of owners; collective
 
  protected:
   ContactStore store;

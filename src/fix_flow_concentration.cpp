@@ -102,7 +102,8 @@ void FixFlowConcentration::init()
 
 /* ---------------------------------------------------------------------- */
 
-void FixFlowConcentration::set_up()
+// keep: what cells have goes to the ranks that they belong to now
+void FixFlowConcentration::set_up(bool keep)
 {
   if (method == Method::FFT && !can_convolve())
     error->all(FLERR, Error::NOLASTLINE,
@@ -116,7 +117,10 @@ void FixFlowConcentration::set_up()
       error->all(FLERR, Error::NOLASTLINE,
                  "{} {}: cloud must be <= {} times the box, which is {} wide along {}, got {}",
                  command, id, widest_cloud, domain->prd[c], "xyz"[c], radius);
-  grid.set_up(1);
+  if (keep)
+    grid.share_anew(1);
+  else
+    grid.set_up(1);
   open.set_up(wide ? 1 : CloudSum::reach(grid, radius));
   mark_fluid();
   closed = walled;
@@ -146,8 +150,8 @@ bool FixFlowConcentration::can_convolve() const
 
 void FixFlowConcentration::reset_grid()
 {
-  set_up();
-  renew();
+  set_up(true);
+  grid.fill_ghosts();
 }
 
 /* ----------------------------------------------------------------------
@@ -180,7 +184,7 @@ void FixFlowConcentration::mark_fluid()
 
 void FixFlowConcentration::setup_pre_force(int /*vflag*/)
 {
-  if (domain->box_change) set_up();
+  if (box_changes()) set_up();
   renew();
 }
 
@@ -191,8 +195,14 @@ void FixFlowConcentration::setup_pre_force_respa(int vflag, int ilevel)
 
 void FixFlowConcentration::pre_force(int /*vflag*/)
 {
-  if (domain->box_change) set_up();
-  if (domain->box_change || update->ntimestep % every == 0) renew();
+  if (box_changes()) set_up();
+  if (box_changes() || update->ntimestep % every == 0) renew();
+}
+
+// not: its division among ranks
+bool FixFlowConcentration::box_changes() const
+{
+  return domain->box_change_size || domain->box_change_shape;
 }
 
 void FixFlowConcentration::pre_force_respa(int vflag, int ilevel, int /*iloop*/)

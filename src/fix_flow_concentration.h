@@ -53,7 +53,8 @@ class FixFlowConcentration : public FixPerGrid {
 
   std::array<int, 3> parse_cells(int narg, char **arg);
   void parse(int narg, char **arg);
-  void set_up();
+  void set_up(bool keep = false);
+  bool box_changes() const;
   void check_wide(int axis);
   void mark_fluid();
   CellGrid *grid_of(int which) override { return which ? &direct->grid : &grid; }

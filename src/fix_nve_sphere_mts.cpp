@@ -83,6 +83,7 @@ void FixNVESphereMTS::initial_integrate(int /*vflag*/)
   if (run_totals.particle_steps == 0) find_slow_largest();
   if (foresight.look(slow_largest)) next_reneighbor = update->ntimestep;
   choose_steps();
+  fit_due();
 
   drift_free();
   sub_step_active();
@@ -153,6 +154,34 @@ void FixNVESphereMTS::choose_steps()
   if (demand >= run.finest) {
     run.finest = demand;
     run.mode = apf::mode_names[all.mode];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   The impulse that is due where contacts have just been made or ended stands in the last forces as
+   a force for the length of that collision step, and half of it has acted. Where steps are of
+   another length now, another force gives the other half.
+------------------------------------------------------------------------- */
+
+void FixNVESphereMTS::fit_due()
+{
+  const double more = 2.0 * history->times().behind / collision_step() - 1.0;
+  if (more == 0.0) return;
+  int any = 0;
+  for (const auto *keeper : keepers) any |= keeper->has_due();
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+  if (!any) return;
+  const double no_torque[3] = {};
+  for (auto *keeper : keepers) {
+    const auto loads = keeper->due_loads();
+    for (int i = 0; i < atom->nlocal; i++) {
+      const double *load = &loads[3 * i];
+      if (load[0] == 0.0 && load[1] == 0.0 && load[2] == 0.0) continue;
+      const double f[3] = {more * load[0], more * load[1], more * load[2]};
+      history->bodies().add_load(i, f, no_torque);
+      const double share = contact_share(i);
+      for (int c = 0; c < 3; c++) atom->f[i][c] += share * f[c];
+    }
   }
 }
 

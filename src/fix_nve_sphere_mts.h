@@ -102,12 +102,14 @@ class FixNVESphereMTS : public Fix {
   } run_totals;
   bigint all_collision_steps = 0, late_before_restart = 0;
   bigint active_now = 0, atoms_now = 0;    // sub-stepped and all, of the last particle step
+  int substep_ghosts = 0;                  // see extract()
   double kappa_now = 0.0;
   double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 
   void parse(int, char **);
   void find_slow_largest();
   void choose_steps();
+  void fit_due();
   apf::Slow slow_of(int i, bool all = false) const;
   double contact_share(int i) const;
   void kick_atom(int i, double time);

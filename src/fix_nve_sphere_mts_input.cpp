@@ -131,6 +131,8 @@ void FixNVESphereMTS::init()
   });
 
   foresight.init(history, keepers);
+  // a restart file does not tell what was sub-stepped, and a run begins as it does from there
+  std::fill(activity.begin(), activity.end(), apf::FREE);
 
   for (const auto &fix : modify->get_fix_list())
     if (comm->me == 0 &&

@@ -9,6 +9,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -33,7 +34,7 @@ void FixNVESphereMTS::post_run()
                  late);
 }
 
-// what asked for it, or what the script's number of steps is worth
+// what asked for it, or what the script's number of steps is worth and which one would be accurate
 std::string FixNVESphereMTS::finest_step() const
 {
   const auto &run = run_totals;
@@ -41,8 +42,15 @@ std::string FixNVESphereMTS::finest_step() const
     return fmt::format("finest step set by {} mode of contacts, omega dt at most {:.2g}", run.mode,
                        run.kappa);
   if (run.kappa == 0.0) return "no contacts";
-  return fmt::format("stiffest mode of contacts {}, {:.3g} collision steps in its period", run.mode,
-                     MathConst::MY_2PI / run.kappa);
+  auto text =
+      fmt::format("stiffest mode of contacts {}, {:.3g} collision steps in its period, omega dt at "
+                  "most {:.3g}",
+                  run.mode, MathConst::MY_2PI / run.kappa, run.kappa);
+  if (run.kappa > apf::accurate_kappa)
+    text +=
+        fmt::format(" (collision {:.0f} gives {})",
+                    std::ceil(fixed_steps * run.kappa / apf::accurate_kappa), apf::accurate_kappa);
+  return text;
 }
 
 bigint FixNVESphereMTS::late_contacts() const
@@ -78,10 +86,17 @@ double FixNVESphereMTS::compute_vector(int n)
   return kappa_now;
 }
 
+/* ----------------------------------------------------------------------
+   fluid_every      int, particle steps of a fluid step
+   substep_ghosts   int, ghosts of this rank that a collision step of the last particle step
+                    brings up to date
+------------------------------------------------------------------------- */
+
 void *FixNVESphereMTS::extract(const char *name, int &dim)
 {
   dim = 0;
   if (strcmp(name, "fluid_every") == 0) return &fluid_every;
+  if (strcmp(name, "substep_ghosts") == 0) return &substep_ghosts;
   return nullptr;
 }
 

@@ -49,6 +49,7 @@ template <class Row> void FixNVESphereMTS::sub_step_active()
 
   const double dt = collision_step();
   const apf::ContactTimes times{dt, 0.5 * dt, dt};
+  substep_ghosts = 0;
   auto move = [&](int tile) {
     for (int k = tiles.first(tile); k < tiles.first(tile + 1); k++) {
       kicks[k].apply(rows[moving[k]]);
@@ -57,7 +58,8 @@ template <class Row> void FixNVESphereMTS::sub_step_active()
   };
   auto step_together = [&] {    // tile 0: what has to do with ghosts and with all keepers
     for (int step = 1; step < n_collision; step++) {
-      foresight.exchange.forward(rows, 1.0 - static_cast<double>(step) / n_collision);
+      substep_ghosts =
+          foresight.exchange.forward(rows, 1.0 - static_cast<double>(step) / n_collision);
       for (const int i : held) bodies.clear_loads(i, i + 1);
       for (const int i : foresight.exchange.ghosts()) bodies.clear_loads(i, i + 1);
       for (auto *keeper : keepers) keeper->sub_step(times);

@@ -53,6 +53,15 @@ class FixPerGrid : public Fix {
     grid_of(which)->unpack_add(static_cast<double *>(buf), n, list);
   }
 
+  void pack_remap_grid(int which, void *buf, int n, int *list) override
+  {
+    grid_of(which)->pack_before(static_cast<double *>(buf), n, list);
+  }
+  void unpack_remap_grid(int which, void *buf, int n, int *list) override
+  {
+    grid_of(which)->unpack_set(static_cast<double *>(buf), n, list);
+  }
+
  protected:
   // 0: the grid that others read, null if there is none; other numbers as for CellGrid
   virtual CellGrid *grid_of(int which) = 0;

@@ -171,7 +171,7 @@ void GhostExchange::finish()
 
 /* ---------------------------------------------------------------------- */
 
-template <class Row> void GhostExchange::forward(Row *rows, double left)
+template <class Row> int GhostExchange::forward(Row *rows, double left)
 {
   constexpr int size = motion_size<Row>;
   for (auto &p : partners) {
@@ -193,8 +193,12 @@ template <class Row> void GhostExchange::forward(Row *rows, double left)
     place(self.images[k], buf);
   }
   finish();
-  for (auto &p : partners)
+  size_t placed = self.images.size();
+  for (auto &p : partners) {
     for (size_t k = 0; k < p.images.size(); k++) place(p.images[k], &p.in[size * k]);
+    placed += p.images.size();
+  }
+  return static_cast<int>(placed);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -228,8 +232,8 @@ template <class Row> void GhostExchange::reverse(Row *rows)
 }
 
 namespace LAMMPS_NS {
-template void GhostExchange::forward(apf::PlaneRow *, double);
-template void GhostExchange::forward(apf::SpaceRow *, double);
+template int GhostExchange::forward(apf::PlaneRow *, double);
+template int GhostExchange::forward(apf::SpaceRow *, double);
 template void GhostExchange::reverse(apf::PlaneRow *);
 template void GhostExchange::reverse(apf::SpaceRow *);
 }    // namespace LAMMPS_NS

@@ -27,8 +27,9 @@ class GhostExchange {
               const apf::Bodies &bodies, std::vector<char> &wanted);
 
   // owners' positions and velocities go to ghosts; collective. left: share of the particle step to
-  // come: in a box that changes images move on from where they stood to where the box has them now
-  template <class Row> void forward(Row *rows, double left);
+  // come: in a box that changes images move on from where they stood to where the box has them now.
+  // Returns how many ghosts here it has brought up to date.
+  template <class Row> int forward(Row *rows, double left);
   // loads of ghosts are added to those of their owners, and cleared; collective
   template <class Row> void reverse(Row *rows);
 

@@ -1,6 +1,7 @@
 #include "grid_file.h"
 
 #include "comm.h"
+#include "crash_line.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
@@ -34,6 +35,8 @@ void GridFile::attempt(const std::function<void()> &work) const
   numbers.synchronize();
   std::string text;
   if (numbers.writer()) {
+    const CrashLine line(command + " file " + path +
+                         ": HDF5 crashes while it reads this file, which is damaged");
     try {
       work();
     } catch (const std::bad_alloc &) {

@@ -122,7 +122,7 @@ void PairGranularAdhesive::detect(bool all, double step)
       const bool mine = force->newton_pair || j < atom->nlocal || atom->tag[i] < atom->tag[j];
       if (mine)
         store->note_touch(approach, candidates.touch[k],
-                          kind_of(i, j).mode);    // one of the ranks that see it
+                          mode_of(i, j));    // one of the ranks that see it
       close(k, apf::ContactHistory());
       store->bodies().touch(i);
       store->bodies().touch(j);
@@ -172,7 +172,7 @@ void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
     for (const int k : candidates.near) {
       const int i = candidates.i[k], j = candidates.j[k];
       const auto approach = apf::Approach::of(rows[i], rows[j], candidates.touch[k]);
-      stiffest.include_near(kind_of(i, j).mode, approach);
+      stiffest.include_near(mode_of(i, j), approach);
     }
   });
   if (wet) bridges.find_stiffest(stiffest);

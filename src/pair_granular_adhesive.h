@@ -116,7 +116,10 @@ class PairGranularAdhesive : public Pair {
   void detect(bool all, double step);
   void close(int candidate, const apf::ContactHistory &);
   int number_of_kind(int i, int j);    // in contacts.kinds
-  const apf::ContactKind &kind_of(int i, int j) { return contacts.kinds[number_of_kind(i, j)]; }
+  const apf::StiffestMode &mode_of(int i, int j)
+  {
+    return contacts.kinds[number_of_kind(i, j)].mode;
+  }
   void share_masses();
   void correct_ends(double step);
   double init_bridge(int i, int j, double ri, double rj);

@@ -24,6 +24,7 @@ class Table:
     names: list
     rows: np.ndarray    # rows x columns
     step: int = None
+    totals: tuple = ()    # what the line before a block tells after step and number of rows
 
     def __contains__(self, name):
         return self.place(name) is not None
@@ -131,11 +132,12 @@ def whole_blocks(path):
     blocks, begin = {}, 0
     while begin < len(data):
         number, line = data[begin]
-        step, count = (int(value) for value in numbers(path, number, line)[:2])
+        step, count, *totals = numbers(path, number, line)
+        step, count = int(step), int(count)
         if begin + count >= len(data):
             break
         rows = [numbers(path, *one, len(heads[2])) for one in data[begin + 1:begin + 1 + count]]
-        blocks[step] = Table(Path(path), heads[2], np.array(rows), step)
+        blocks[step] = Table(Path(path), heads[2], np.array(rows), step, tuple(totals))
         begin += 1 + count
     return [blocks[step] for step in sorted(blocks)]
 
@@ -178,7 +180,7 @@ def snapshot(path, items):
             stop(path, f"line {number + k + 1}: {len(words)} values for {len(names)} columns")
         rows[k] = [float(word) if re.match(r"[-+.\d]|nan|inf", word) else np.nan for word in words]
     bounds = np.array([numbers(path, number, line)[:2] for line in parts["BOX BOUNDS"]])
-    return Snapshot(Path(path), names, rows, int(parts["TIMESTEP"][0]), bounds, size)
+    return Snapshot(Path(path), names, rows, int(parts["TIMESTEP"][0]), bounds=bounds, size=size)
 
 
 def read_dump(path):

@@ -181,7 +181,8 @@ namespace ContactModels {
     void evaluate(SurfacesCloseData &contact, double mass, ForceData &on_i, ForceData &on_j)
     {
       const int number = index(contact.itype, contact.jtype);
-      constants = kinds.constants(kinds.find(number, laws[number], bodies_of(contact, mass)));
+      const int kind = kinds.find(number, laws[number], bodies_of(contact, mass));
+      constants = {kinds.constants(kind), kinds[kind].crowd_mass, kinds[kind].crowd_roll};
       const auto stored = history_of(contact);
       auto memory = stored.load();
       // within a step of velocity Verlet velocities are half a step older than positions

@@ -181,7 +181,7 @@ def draw_ends(runs, amap, path):
 
 
 def draw_close_ups(runs, path):
-    """Figure 11: the lower wall in a series of times, a column for each run."""
+    """Figure 11: the lower wall in a series of times, a column for each run, of the report's two phi."""
     series = [[(rf"$\phi$ = {run.phi}, t = {t:.2f} L/U", picture) for t, picture in zip(*run.pictures(".close"))]
               for run in runs]
     draw_pictures([picture for row in zip(*series) for picture in row], len(runs), path, (4, 1.1))
@@ -208,7 +208,7 @@ def draw_profiles(runs, report, path):
     figure, axes = plt.subplots(len(runs), 2, figsize=(9, 2.15 * len(runs) + 0.5), sharex=True,
                                 sharey="col", squeeze=False, layout="constrained")
     for row, run in zip(axes, runs):
-        said = [r for r in report if r["figure"] == "10" and r["case"] == run.phi]
+        said = [r for r in report if r["figure"] == "10" and r["case"].split("/")[0] == run.phi]
         stills = [r for r in said if r["quantity"] == "still_layer"]
         words = "; ".join(r["words"] for r in said if r not in stills)
         draw_profile(row, run, f"report, t {said[0]['for_t']}: {words}" if words else "")
@@ -306,7 +306,7 @@ def main():
     plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "axes.grid": False})
     draw_ends(runs, amap, out / "figure09.png")
     draw_profiles(runs, report, out / "figure10.png")
-    close = [run for run in runs if run.pictures(".close")[1]]
+    close = [run for run in runs if run.phi in ("1.5", "150") and run.pictures(".close")[1]]
     if close:
         draw_close_ups(close, out / "figure11.png")
     names = ["in_aggregates", "aggregates", "mean_size"]

@@ -4,8 +4,10 @@
 Writes figure13.png (water), figure14.png (distance to the walls), figure15.png and figure19.png (particles, by
 length and by phi), figure16.png (sizes over time), figure17.png (along the axis, by length), figure20.png (by phi),
 figure21.png and figure22.png (clogs) and compare.txt to DIR, from all nozzle-*.aggregates there, and from the flows
-nozzle-LENGTH.vtkhdf there or here.
+nozzle-LENGTH.vtkhdf there or here. An exit has closed when the last particle that left has passed it; a run notices
+that when nothing has left for 20 D/U, and ends.
 """
+import re
 import sys
 from pathlib import Path
 
@@ -18,6 +20,7 @@ from grids import read_grid
 from report import Ours, Run, arguments, conclude, draw_pictures, read_runs, those_with, values_by_run
 
 CHANNEL = 5e-4    # width of the channel [m], as in in.nozzle
+DENSITY, SPEED = 2600, 1.0    # of particles, and mean of the water in the exit; as there
 LENGTHS = ("0", "0.5", "1")    # of the contraction [widths of the channel]
 TRANSIT = 10 / 1.5    # from the exit to the outlet, 10 D at the largest velocity there [D/U]
 
@@ -34,6 +37,17 @@ def kind(run):
     return ", d = D/50" if run.name.endswith("ratio50") else ""
 
 
+def order(run):
+    """Sorts by length, kind, phi, walls."""
+    return parts(run)[0], kind(run), parts(run)[1:3]
+
+
+def closed(run):
+    """When the last particle that left has passed the exit [D/U]."""
+    left = run.history["left"]
+    return run.t[left >= left[-1] - 0.5][0] - TRANSIT
+
+
 def size_along(run):
     """Mean size of free aggregates over x [widths of the channel] after a quarter of the run."""
     times, blocks = run.blocks(".profile")
@@ -42,10 +56,51 @@ def size_along(run):
     return blocks[0][:, 1] / CHANNEL, np.divide(free, share, out=np.full(len(free), np.nan), where=share > 0)
 
 
-def values_of(run):
-    """The quantities of report.csv."""
-    return {"mean size of aggregates": Ours(*run.last("mean_size", 0.75), run.t[-1]),
-            "clogs: 1 or 0": Ours(parts(run)[3], t=run.t[-1])}
+def growth(run):
+    """Mean size of free aggregates in 0.2 widths behind the contraction over that in 0.2 widths before it."""
+    if not run.blocks(".profile")[1]:
+        return np.nan
+    length = float(parts(run)[0])
+    x, size = size_along(run)
+    before, behind = (size[(x > low) & (x < low + 0.2)] for low in (-0.2, length))
+    return behind.mean() / before.mean()
+
+
+def swing(run):
+    """Standard deviation of the mean size over time, from a quarter of the run on, and before it closes if it does."""
+    end = closed(run) if parts(run)[3] == 1 else run.t[-1]
+    return run.history["mean_size"][(run.t >= end / 4) & (run.t <= end)].std(ddof=1)
+
+
+def late_growth(run):
+    """Particles in wall aggregates in the last tenth of a run over those in its fifth tenth; nan if there are none."""
+    share = run.t / run.t[-1]
+    middle, end = (run.history["wall_in_aggregates"][(share > low) & (share <= low + 0.1)].mean() for low in (0.4, 0.9))
+    return end / middle if middle else np.nan
+
+
+def values_of(run, runs):
+    """The quantities of report.csv, of one of the runs."""
+    length, phi, adhere, clogged = parts(run)
+    low = [other for other in runs if (*parts(other)[:3], kind(other)) == (length, 25, adhere, kind(run))]
+    attached, groups = (run.last(key, 0.25)[0] for key in ("wall_in_aggregates", "wall_aggregates"))
+    return {"mean size of aggregates": Ours(*run.last("mean_size", 0.5), run.t[-1]),
+            "clogs: 1 or 0": Ours(clogged, t=run.t[-1]),
+            "closed at t": Ours(closed(run) if clogged == 1 else np.nan, t=run.t[-1]),
+            "wall aggregates: mean size": Ours(attached / groups if groups else np.nan, t=run.t[-1]),
+            "particles on walls: last tenth / fifth tenth": Ours(late_growth(run), t=run.t[-1]),
+            "size behind / before the contraction": Ours(growth(run), t=run.t[-1]),
+            "fluctuation of mean size / that at phi = 25": Ours(swing(run) / swing(low[0]) if low and phi > 25 else np.nan, t=run.t[-1])}
+
+
+def scene(run):
+    """Words for particles, and for the elasticity number by the law of the log."""
+    text = f"{run.history['entered'][-1]:.0f} entered, {run.history['left'][-1]:.0f} left"
+    modulus = re.findall(r"^pair_coeff +1 1 jkr (\d\S*) (0\.\d+) ", run.log(), re.M)
+    if modulus:
+        E, nu = map(float, modulus[-1])
+        text += f"; lambda {E / (2 * (1 - nu**2) * DENSITY * SPEED**2):.3g}"
+    return text
 
 
 def read_flows(folders):
@@ -75,7 +130,7 @@ def draw_particles(runs, columns, path):
     for run in runs:
         length, phi, adhere, clogged = parts(run)
         times, paths = run.pictures()
-        words = f"length {length}, $\\phi$ = {phi:g}, walls {'adhere' if adhere else 'do not adhere'}, t = {times[-1]:.0f} D/U"
+        words = f"length {length}, $\\phi$ = {phi:g}{kind(run)}, walls {'adhere' if adhere else 'do not adhere'}, t = {times[-1]:.0f} D/U"
         ends.append((words + (", clogged" if clogged == 1 else ""), paths[-1]))
     draw_pictures(ends, columns, path, (4.6, 1), trim=True)
 
@@ -97,22 +152,28 @@ def draw_history(runs, path):
 
 
 def draw_profiles(groups, path):
-    """Mean size of free aggregates along the axis; groups are (title, runs, label of a run)."""
+    """Mean size of free aggregates along the axis; groups are (title, runs, label of a run).
+
+    Colours are those of phi where there are several, else of the walls; small particles are dotted.
+    """
     figure, axes = plt.subplots(1, len(groups), figsize=(4.5 * len(groups), 3.6), layout="constrained",
-                                squeeze=False)
+                                squeeze=False, sharey=True)
     for axis, (title, runs, label) in zip(axes[0], groups):
+        phis = sorted({parts(run)[1] for run in runs})
         for run in runs:
-            axis.plot(*size_along(run), linewidth=1, label=label(run))
+            colour = f"C{phis.index(parts(run)[1])}" if len(phis) > 1 else "C1" if parts(run)[2] else "C0"
+            axis.plot(*size_along(run), linewidth=1, linestyle=":" if kind(run) else "-", color=colour, label=label(run))
         for x in {0.0, float(parts(runs[0])[0])}:
             axis.axvline(x, color="0.6", linestyle="--", linewidth=0.8)
-        axis.set(xlabel="x / width of the channel", ylabel="mean size of free aggregates", title=title)
+        axis.set(xlabel="x / width of the channel", title=title)
         axis.legend(fontsize=8)
+    axes[0, 0].set_ylabel("mean size of free aggregates")
     figure.savefig(path, dpi=150)
 
 
 def draw_clogs(runs, out):
     """The end of each run that clogged (figure 21), and how a bridge forms (figure 22) in the one with most pictures."""
-    clogged = sorted((run for run in runs if parts(run)[3] == 1 and run.pictures(".close")[1]), key=parts)
+    clogged = sorted((run for run in runs if parts(run)[3] == 1 and run.pictures(".close")[1]), key=order)
     if not clogged:
         return
     ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:.0f} D/U", run.pictures(".close")[1][-1])
@@ -120,9 +181,7 @@ def draw_clogs(runs, out):
     draw_pictures(ends, min(4, len(ends)), out / "figure21.png")
     run = max(clogged, key=lambda run: len(run.pictures(".close")[1]) / run.t[-1])
     times, paths = run.pictures(".close")
-    left = run.history["left"]
-    closed = run.t[left >= left[-1] - 0.5][0] - TRANSIT + 1
-    last = next(k for k, t in enumerate(times) if t >= closed or t == times[-1])
+    last = next(k for k, t in enumerate(times) if t >= closed(run) + 1 or t == times[-1])
     first = max(0, last - 7)
     draw_pictures([(f"t = {t:g} D/U", path) for t, path in zip(times[first:last + 1], paths[first:last + 1])], 4,
                   out / "figure22.png")
@@ -138,28 +197,26 @@ def main():
                       "u / U, Re = 100", out / "figure13.png")
         draw_entrance(flows, lambda grid: grid["distance"] / CHANNEL, np.linspace(-0.15, 0.15, 13),
                       "distance to the walls / width", out / "figure14.png")
-    usual = [run for run in runs if not kind(run) and run.pictures()[1]]
-    by_length = sorted((run for run in usual if parts(run)[1] == 50), key=lambda run: (parts(run)[0], parts(run)[2]))
+    pictured = [run for run in runs if run.pictures()[1]]
+    by_length = sorted((run for run in pictured if parts(run)[1] == 50), key=order)
     if by_length:
         draw_particles(by_length, 2, out / "figure15.png")
     draw_history(runs, out / "figure16.png")
     profiled = those_with(runs, lambda run: run.blocks(".profile")[1], "profile", "figure17.png, figure20.png")
-    lengths = [(f"length {length}", [run for run in profiled if parts(run)[:2] == (length, 50)],
+    lengths = [(f"length {length}", sorted((run for run in profiled if parts(run)[:2] == (length, 50)), key=order),
                 lambda run: ("walls adhere" if parts(run)[2] else "walls do not adhere") + kind(run))
                for length in LENGTHS]
     lengths = [group for group in lengths if group[1]]
     if lengths:
         draw_profiles(lengths, out / "figure17.png")
-    phis = sorted((run for run in runs if parts(run)[0] == "1" and parts(run)[2]), key=lambda run: parts(run)[1])
-    pictured, along = ([run for run in phis if run in some] for some in (usual, profiled))
-    if pictured:
-        draw_particles(pictured, 1, out / "figure19.png")
+    phis = sorted((run for run in runs if parts(run)[0] == "1" and parts(run)[2]), key=lambda run: (parts(run)[1], kind(run)))
+    ends, along = ([run for run in phis if run in some] for some in (pictured, profiled))
+    if ends:
+        draw_particles(ends, len({kind(run) for run in ends}), out / "figure19.png")
     if along:
-        draw_profiles([("length 1, walls adhere", along, lambda run: f"phi = {parts(run)[1]:g}")], out / "figure20.png")
+        draw_profiles([("length 1, walls adhere", along, lambda run: f"phi = {parts(run)[1]:g}" + kind(run))], out / "figure20.png")
     draw_clogs(runs, out)
-    costs = [run.cost(f"{run.history['entered'][-1]:.0f} entered, {run.history['left'][-1]:.0f} left")
-             for run in runs]
-    conclude(HERE, values_by_run(runs, values_of), costs, out, kept)
+    conclude(HERE, values_by_run(runs, lambda run: values_of(run, runs)), [run.cost(scene(run)) for run in runs], out, kept)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 Writes particles.png (ends of the runs: figure 23a and with adhesion), figure23.png (no adhesion), figure25.png, figure26.png,
 figure27.png (adhesion), figure24.png and compare.txt to DIR, from all pipe-*.aggregates there.
 """
+import re
 import sys
 from pathlib import Path
 
@@ -18,8 +19,16 @@ VARIANTS = {"plain": "drag alone", "nolift": "no lift, no Magnus force", "e09": 
 STEP, VOLUME = 0.00263, np.pi / 6 * 0.04**3    # particle step, volume of a particle; as in in.pipe
 
 
+def joined(values):
+    """Sums over rings, the last two of which become one."""
+    return np.append(values[:-2], values[-2:].sum())
+
+
 class Pipe(Run):
-    """One run, with concentration c and velocity v over r at times (none before 1 L/U), and sizes at the end."""
+    """One run, with concentration c and velocity v over r at times (none before 1 L/U), and sizes at the end.
+
+    A sphere on the wall has its center at r = 0.98, where two rings meet: the last two are one, 0.96 < r < 1.
+    """
 
     def __init__(self, path):
         super().__init__(path, "pipe-", 1 / STEP)
@@ -27,10 +36,18 @@ class Pipe(Run):
         phi, *variant = self.name.split("-")
         self.words = ", ".join([f"phi = {phi[3:]}", *(VARIANTS.get(word, word) for word in variant)])
         self.times, blocks = self.blocks(".profiles")
-        self.r = blocks[0][:, 1] if blocks else np.array([])
-        self.c = np.array([rows[:, 4] * VOLUME for rows in blocks])
-        self.v = np.array([np.where(rows[:, 3] > 0, rows[:, 5], np.nan) for rows in blocks])
+        rings = np.linspace(0, 1, len(blocks[0]) + 1) if blocks else np.zeros(2)
+        area = np.pi * np.diff(rings**2)
+        edges = np.delete(rings, -2)
+        self.r, self.area = (edges[1:] + edges[:-1]) / 2, joined(area)
+        self.c = np.array([joined(rows[:, 4] * area) * VOLUME / self.area for rows in blocks])
+        number = np.array([joined(rows[:, 3]) for rows in blocks])
+        moved = np.array([joined(rows[:, 3] * rows[:, 5]) for rows in blocks])
+        self.v = np.divide(moved, number, out=np.full(number.shape, np.nan), where=number > 0)
+        found = re.findall(r"^region +box block 0 ([\d.]+) ", self.log(), re.M)
+        self.length = float(found[-1]) if found else 4.0
         self.size, self.in_size = self.blocks(".sizes")[1][-1][:, 1:3].T
+        self.largest = self.totals(".sizes")[-1]
 
     def profile(self, t, width=3):
         """c and v at the time next to t, the mean of `width` blocks."""
@@ -40,35 +57,61 @@ class Pipe(Run):
         return self.c[k].mean(axis=0), v
 
 
+def blocks_of(run, span):
+    """Middles of spans of time [L/U], and the means of particles in aggregates and of aggregates in them."""
+    n = max(1, int(run.t[-1] / span + 0.01))
+    inside = [(run.t > span * k) & (run.t <= span * (k + 1)) for k in range(n)]
+    means = [[run.history[key][part].mean() for part in inside] for key in ("in_aggregates", "aggregates")]
+    return span * (np.arange(n) + 0.5), *np.array(means)
+
+
+def dry_values(run, c, mean):
+    """The quantities of report.csv for a dry run."""
+    after = run.t > 1
+    inside, count = (run.history[key][after] for key in ("in_aggregates", "aggregates"))
+    tens = blocks_of(run, 10)[1]
+    rises = [later / tens[k] for k in range(len(tens)) for later in tens[k + 1:] if tens[k]]
+    return {"size of collision clusters": inside.sum() / count.sum(), "c at r = 0.2": c[abs(run.r - 0.2) < 0.05].mean(),
+            "largest c for 0.05 < r < 0.9": c[(run.r > 0.05) & (run.r < 0.9)].max(),
+            "c at r = 0.95": c[(run.r > 0.94) & (run.r < 0.96)].mean(),
+            "c for r > 0.96 / mean c": c[-1] / mean,
+            "particles in collisions: largest rise between means of 10 L/U": max(rises, default=np.nan)}
+
+
+def adhesive_values(run, c, v, total):
+    """The same for a run with adhesion, of `total` particles."""
+    inside, count = run.last("in_aggregates")[0], run.last("aggregates")[0]
+    still = run.r[v > 0.05]
+    number = np.divide(run.in_size, run.size)[run.size > 1]
+    core, rest = (c[part] @ run.area[part] / run.area[part].sum() for part in (run.r < 0.5, (run.r > 0.5) & (run.r < 0.8)))
+    return {"mean size": inside / count, "particles in aggregates": inside / total, "number of aggregates": count,
+            "number of aggregates: end / largest": count / run.history["aggregates"].max(),
+            "largest number of aggregates": run.history["aggregates"].max(),
+            "share of aggregates with fewer than 10": number[run.size[run.size > 1] < 10].sum() / number.sum(),
+            "largest aggregate": run.largest,
+            "c for r < 0.5 / c for 0.5 < r < 0.8": core / rest,
+            "radius of the peak of c": run.r[c.argmax()],
+            "radius beyond which v < 0.05 U": still.max() if len(still) else 0.0}
+
+
 def values_of(run):
     """The quantities of report.csv, at the end of the run; none before its first profile."""
     if len(run.times) == 0:
         return {}
     c, v = run.profile(run.times[-1])
-    volume = run.r * (run.r[1] - run.r[0])
-    if not run.adhesive:
-        after = run.t > 1
-        inside, count = (run.history[key][after] for key in ("in_aggregates", "aggregates"))
-        tens = [inside[run.t[after] // 10 == k].mean() for k in range(max(1, int(run.t[-1] + 0.5) // 10))]
-        return {"size of collision clusters": inside.sum() / count.sum(), "c at r = 0.2": c[abs(run.r - 0.2) < 0.05].mean(),
-                "largest c for 0.05 < r < 0.9": c[(run.r > 0.05) & (run.r < 0.9)].max(),
-                "c at r = 0.95": c[(run.r > 0.94) & (run.r < 0.96)].mean(),
-                "c at the wall / mean c": c[-1] / (c @ volume / volume.sum()),
-                "particles in collisions: largest / first mean of 10 L/U": max(tens) / tens[0]}
-    inside, count = run.last("in_aggregates")[0], run.last("aggregates")[0]
-    still = run.r[v > 0.05]
-    total = (c @ volume) * 2 * np.pi * 4 / VOLUME
-    return {"mean size": inside / count, "particles in aggregates": inside / total,
-            "number of aggregates": count,
-            "largest aggregate": run.size[run.in_size > 0].max(),
-            "radius of the peak of c": run.r[c.argmax()],
-            "radius beyond which v < 0.05 U": still.max() if len(still) else 0.0}
+    amount = c * run.area
+    shares = {"share of particles within r < 0.5": amount[run.r < 0.5].sum() / amount.sum(),
+              "share of particles beyond r > 0.9": amount[run.r > 0.9].sum() / amount.sum()}
+    if run.adhesive:
+        return {**shares, **adhesive_values(run, c, v, amount.sum() * run.length / VOLUME)}
+    return {**shares, **dry_values(run, c, amount.sum() / run.area.sum())}
 
 
 def draw_profiles(runs, early, path, marks=(), peak=None, still=None):
     """c and v over r at an early time (dashed) and at the end (solid), beside what the report says.
 
-    That is points (r, c), the radius of a peak of c, the radius beyond which particles are at rest.
+    That is points (r, c), the radius of a peak of c, the radius beyond which particles are at rest. With a peak c is on a
+    logarithmic axis.
     """
     runs = those_with(runs, lambda run: len(run.times), "profile", path.name)
     if not runs:
@@ -85,25 +128,32 @@ def draw_profiles(runs, early, path, marks=(), peak=None, still=None):
         axes[0].axvline(peak, color="k", linestyle=":", linewidth=0.8, label="report's peak")
         axes[1].axvspan(still, 1, color="0.9", zorder=0, label="report: at rest")
     axes[1].plot(runs[0].r, 1 - runs[0].r**2, ":", color="0.5", label="fluid")
-    axes[0].set(xlabel="r / L", ylabel="c", ylim=(0, 0.1), xlim=(0, 1))
+    axes[0].set(xlabel="r / L", ylabel="c", xlim=(0, 1))
+    axes[0].set(**({"yscale": "log", "ylim": (1e-4, 1)} if peak else {"ylim": (0, 0.1)}))
     axes[1].set(xlabel="r / L", ylabel="v / U", xlim=(0, 1))
     axes[0].legend(fontsize=8)
     axes[1].legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
 
-def draw_history(runs, path, said):
-    """Particles in aggregates, their number and mean size over time; the report's values dashed."""
+def draw_history(runs, path, said, span=None):
+    """Particles in aggregates, their number and mean size over time; the report's values dashed.
+
+    With `span` the means over spans of that length, the first two on logarithmic axes.
+    """
     figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), layout="constrained")
     for run in runs:
-        n, count = run.history["in_aggregates"], run.history["aggregates"]
+        t, n, count = blocks_of(run, span) if span else (run.t, run.history["in_aggregates"], run.history["aggregates"])
         size = np.divide(n, count, out=np.full_like(n, np.nan), where=count > 0)
         for axis, values in zip(axes, (n, count, size)):
-            axis.plot(run.t, values, linewidth=1, label=run.words)
+            axis.plot(t, values, linewidth=1, marker="." if span else "", label=run.words)
     for axis, value, label in zip(axes, said, ("particles in aggregates", "aggregates", "mean size")):
         axis.set(xlabel="t  [L/U]", ylabel=label)
         if value:
             axis.axhline(value, color="k", linestyle="--", linewidth=0.8, label="report")
+    for axis in axes[:2] if span else ():
+        axis.set_yscale("log")
+        axis.yaxis.set_major_formatter("{x:g}")
     figure.legend(*axes[2].get_legend_handles_labels(), fontsize=8, frameon=False, ncol=len(runs) + 1, loc="lower center")
     figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
     figure.savefig(path, dpi=150)
@@ -113,10 +163,10 @@ def draw_sizes(runs, path):
     """Particles in aggregates of each size at the end."""
     figure, axis = plt.subplots(figsize=(6, 3.6), layout="constrained")
     for run in runs:
-        axis.plot(run.size[run.in_size > 0], run.in_size[run.in_size > 0], ".", label=run.words)
+        axis.plot(run.size[run.in_size > 0], run.in_size[run.in_size > 0], ".", label=f"{run.words}, largest {run.largest:.0f}")
     axis.axvline(60, color="k", linestyle="--", linewidth=0.8, label="report's largest")
     axis.set(xlabel="particles in the aggregate", ylabel="particles in aggregates of this size",
-             xlim=(0, 101), ylim=(10, 1000), yscale="log")
+             xlim=(0, 1.03 * max(60, *(run.largest for run in runs))), ylim=(10, 1000), yscale="log")
     axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
@@ -131,12 +181,12 @@ def main():
     dry, adhesive = ([run for run in runs if run.adhesive == kind] for kind in (False, True))
     if dry:
         draw_profiles(dry, 3, out / "figure23.png", [(0.2, 0.03), (0.95, 0.008)])
-        draw_history(dry, out / "figure24.png", (None, None, 2.02))
+        draw_history(dry, out / "figure24.png", (None, None, 2.02), span=5)
     if adhesive:
         draw_history(adhesive, out / "figure25.png", (0.8 * 5080, 700, 5.5))
         draw_sizes(adhesive, out / "figure26.png")
         draw_profiles(adhesive, 2, out / "figure27.png", peak=0.95, still=0.85)
-    conclude(HERE, values_by_run(runs, values_of), [run.cost("5080 particles") for run in runs], out, kept)
+    conclude(HERE, values_by_run(runs, values_of), [run.cost(f"{1270 * run.length:.0f} particles") for run in runs], out, kept)
 
 
 if __name__ == "__main__":

@@ -60,7 +60,7 @@ def both_halves(polygons):
 
 def draw_mesh(mesh, path):
     """The grid on the walls, and the blocks of the half with y > 0 (figure 37)."""
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), subplot_kw={"projection": "3d"}, layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(12, 4.4), subplot_kw={"projection": "3d"})
     walls = {patch: both_halves(np.concatenate([quads(mesh.face(corners)) for corners in faces]))
              for patch, faces in mesh.patches.items() if patch in ("bar", "fins")}
     blocks = {k: np.concatenate([quads(nodes) for nodes in mesh.block_faces(block)])
@@ -70,11 +70,14 @@ def draw_mesh(mesh, path):
         axis.add_collection3d(Poly3DCollection(np.concatenate(list(parts.values())), facecolors=colours,
                                                edgecolors="k", linewidths=0.12))
     axes[0].set(xlim=(0, 4), ylim=(-1.5, 1.5), yticks=(-1, 0, 1), title="(a) grid on the bar (blue) and the fin (orange)")
-    axes[1].set(xlim=(-5, 4), ylim=(0, 1.5), yticks=(0, 1.5), title="(b) blocks of one half, from the side of the bar")
-    for axis, side in zip(axes, (-125, -70)):
+    axes[0].set(xlabel="x [mm]", ylabel="y [mm]")
+    axes[1].set(xlim=(-5, 4), ylim=(0, 1.5), yticks=(), title="(b) blocks of the half 0 < y < 1.5 mm, from the side of the bar")
+    axes[1].text2D(0.45, 0.2, "x [mm]", transform=axes[1].transAxes)    # a label lies on the numbers
+    for axis, side, zoom in zip(axes, (-125, -70), (1.1, 1.2)):
         axis.view_init(28, side)
-        axis.set(zlim=(-0.6, 0.6), xlabel="x [mm]", ylabel="y [mm]", zticks=(-0.6, 0.6))
-        axis.set_box_aspect([high - low for low, high in (axis.get_xlim(), axis.get_ylim(), axis.get_zlim())], zoom=1.2)
+        axis.set(zlim=(-0.6, 0.6), zticks=(-0.6, 0.6))
+        axis.set_box_aspect([high - low for low, high in (axis.get_xlim(), axis.get_ylim(), axis.get_zlim())], zoom=zoom)
+    figure.subplots_adjust(left=0.03, right=0.97, bottom=0, top=0.92, wspace=0.05)
     figure.savefig(path, dpi=110)
 
 
@@ -83,7 +86,7 @@ def draw_air(grid, path):
     u = grid.fluid(grid["velocity"][..., 0]) / SPEED
     x, y, z = (1e3 * nodes for nodes in (grid.x, grid.y, grid.z))
     middle, side = abs(y).argmin(), abs(y - 1).argmin()
-    figure, axes = plt.subplots(1, 3, figsize=(13, 3.2), layout="constrained", width_ratios=(1, 1.1, 1.1))
+    figure, axes = plt.subplots(1, 3, figsize=(13, 3.5), layout="constrained", width_ratios=(1, 1.1, 1.1))
     for axis, up, plane, title in ((axes[0], y, u[-1], "(a) z = 0.6 mm, middle of a channel"),
                                    (axes[1], z, u[:, middle], "(b) y = 0, before the middle of the bar"),
                                    (axes[2], z, u[:, side], "(c) y = 1 mm, between two bars")):
@@ -91,7 +94,8 @@ def draw_air(grid, path):
         axis.set(aspect="equal", xlabel="x [mm]", title=title, facecolor="0.8")
     axes[0].set_ylabel("y [mm]")
     axes[1].set_ylabel("z [mm]")
-    figure.colorbar(image, ax=axes, label="u / U")
+    figure.colorbar(image, ax=axes, label="u / U", aspect=25)
+    figure.get_layout_engine().set(h_pad=0.1)
     figure.savefig(path, dpi=110)
 
 

@@ -40,12 +40,15 @@ struct BridgeParts {
 
 // Bridges of one kind differ in their volume only.
 struct BridgeKind {
+  struct Rest {
+    BridgeModel liquid;
+  };
   BridgeConstantsOf<double> constants;
-  BridgeModel liquid;
+  Rest rest;
 
   static BridgeKind make(const WetContact &wet, const ContactBodies &bodies)
   {
-    return {BridgeConstants::between(wet, bodies), wet.liquid};
+    return {BridgeConstants::between(wet, bodies), {wet.liquid}};
   }
 };
 

@@ -15,9 +15,17 @@
 namespace apf {
 
 struct ContactKind {
-  ContactConstants constants;
-  StiffestMode mode;
+  struct Rest {
+    double crowd_mass, crowd_roll;    // of ContactConstants
+    StiffestMode mode;
+  };
+  ConstantsOf<double> constants;
+  Rest rest;
 
+  ContactKind(const ContactConstants &c, const StiffestMode &mode) :
+      constants(c), rest{c.crowd_mass, c.crowd_roll, mode}
+  {
+  }
   static ContactKind make(const ContactModel &model, const ContactBodies &bodies)
   {
     return {ContactConstants::make(model, bodies), stiffest_mode(model, bodies)};
@@ -25,11 +33,12 @@ struct ContactKind {
 };
 
 // The kinds in use, each with the number of its contacts, and the last one met at each place of a
-// hash. A kind that was pushed from there while it has contacts may be in here twice.
+// hash. A kind that was pushed from there while it has contacts may be in here twice. A Kind is
+// what kernels read, `constants`, and the `rest`.
 template <class Kind> class Kinds {
  public:
-  const Kind &operator[](int n) const { return entries[n].kind; }
-  const auto &constants(int n) const { return entries[n].kind.constants; }
+  const auto &constants(int n) const { return rows[n].constants; }
+  const auto &operator[](int n) const { return entries[n].rest; }
 
   // number of the kind of a contact under the law of that number; without use() it holds until the
   // next call
@@ -39,17 +48,11 @@ template <class Kind> class Kinds {
     int &n = recent[key % recent.size()];
     if (n >= 0 && entries[n].key == key) return n;
     if (n < 0 || entries[n].contacts > 0) n = place();
-    entries[n] = {key, Kind::make(model, bodies), 0};
-    return n;
+    return set(n, key, Kind::make(model, bodies));
   }
 
   // one that nobody is to find
-  int add(const Kind &kind)
-  {
-    const int n = place();
-    entries[n] = {0, kind, 0};
-    return n;
-  }
+  int add(const Kind &kind) { return set(place(), 0, kind); }
 
   void use(int n) { entries[n].contacts++; }
   void release(int n)
@@ -70,19 +73,32 @@ template <class Kind> class Kinds {
 
   double memory_usage() const    // [bytes]
   {
-    return entries.capacity() * sizeof(Entry) + (free.capacity() + recent.size()) * sizeof(int);
+    return entries.capacity() * (sizeof(Entry) + sizeof(Row)) +
+        (free.capacity() + recent.size()) * sizeof(int);
   }
 
  private:
+  // Side by side in cache lines of their own: where all radii differ, kernels fetch more of these
+  // than of anything else.
+  struct alignas(64) Row {
+    decltype(Kind::constants) constants;
+  };
   struct Entry {
     uint64_t key;    // hash of law and bodies: 64 bits, compared with those of one place only
-    Kind kind;
+    decltype(Kind::rest) rest;
     int contacts;
   };
+  std::vector<Row> rows;    // as many as entries
   std::vector<Entry> entries;
   std::vector<int> free;                                   // entries that nobody finds or uses
   std::vector<int> recent = std::vector<int>(1024, -1);    // by hash: which entry was the last
 
+  int set(int n, uint64_t key, const Kind &kind)
+  {
+    rows[n] = {kind.constants};
+    entries[n] = {key, kind.rest, 0};
+    return n;
+  }
   bool found(int n) const { return recent[entries[n].key % recent.size()] == n; }
   void find_free()
   {
@@ -93,6 +109,7 @@ template <class Kind> class Kinds {
   int place()
   {
     if (free.empty()) {
+      rows.emplace_back();
       entries.emplace_back();
       return static_cast<int>(entries.size()) - 1;
     }

@@ -92,8 +92,7 @@ class ContactList {
     const int k = append(body_i, body_j, mark, kind_of);
     kinds.use(kind_of);
     blocks[k / width].overlap[k % width] = 0.0;
-    const auto &c = kinds.constants(kind_of);
-    set_crowding(k, c.crowd_mass, c.crowd_roll);
+    set_crowding(k, kinds[kind_of].crowd_mass, kinds[kind_of].crowd_roll);
     set_history(k, h);
     return k;
   }
@@ -196,10 +195,8 @@ class ContactList {
 
   ContactConstants constants_of(int k) const
   {
-    ContactConstants c = kinds.constants(kind[k]);
-    c.crowd_mass = blocks[k / width].crowd_mass[k % width];
-    c.crowd_roll = blocks[k / width].crowd_roll[k % width];
-    return c;
+    const Block &block = blocks[k / width];
+    return {kinds.constants(kind[k]), block.crowd_mass[k % width], block.crowd_roll[k % width]};
   }
 
   ContactHistory history_of(int k) const

@@ -2,10 +2,10 @@
 //
 //   normal      sqrt(k / m),                k = dF/d(overlap) = (6/5) E a0 at equilibrium
 //   tangential  sqrt(k_T (1/m + 5/(2 m))),  k_T = 8 G a0: sliding springs also turn the spheres
-//   twisting    sqrt(k_Q / I),              k_Q = k_T a0^2 / 2
 //   rolling     sqrt(4 F_C R / I)
 // with m and I the effective mass and moment of inertia; a contact without adhesion is taken at an
-// overlap of 1 % of R.
+// overlap of 1 % of R. Twisting, sqrt(k_T a0^2 / (2 I)), is slower than the tangential mode up to
+// a0 = 1.67 r of the smaller sphere, and above 1.22 r the overlap at rest stops the run.
 
 #ifndef APF_STIFFNESS_H
 #define APF_STIFFNESS_H
@@ -24,9 +24,8 @@ namespace apf {
 constexpr double largest_stable_kappa = 0.8;
 constexpr double accurate_kappa = 0.3;
 
-enum ContactMode { NONE, NORMAL, TANGENTIAL, TWISTING, ROLLING, BRIDGE };
-constexpr const char *mode_names[] = {"no",       "normal",  "tangential",
-                                      "twisting", "rolling", "bridge"};
+enum ContactMode { NONE, NORMAL, TANGENTIAL, ROLLING, BRIDGE };
+constexpr const char *mode_names[] = {"no", "normal", "tangential", "rolling", "bridge"};
 
 struct StiffestMode {
   double frequency = 0.0;    // at rest                                                [1/time]
@@ -123,7 +122,6 @@ inline StiffestMode stiffest_mode(const ContactModel &model, const ContactBodies
   const double a = adhesive ? normal.equilibrium_radius() : 0.1 * bodies.R;
   const double kn = (adhesive ? 1.2 : 2.0) * E * a;
   const double kt = model.sliding() ? 8.0 * G * a : 0.0;
-  const double kq = model.twisting ? 0.5 * kt * a * a : 0.0;
   const double restore = std::pow(model.stiffness_scale, -0.4);
   const double kr = model.rolling() ? 4.0 * normal.pulloff_force() * restore * bodies.R : 0.0;
   const double overlap = adhesive ? normal.equilibrium_overlap() : 0.01 * bodies.R;
@@ -136,7 +134,6 @@ inline StiffestMode stiffest_mode(const ContactModel &model, const ContactBodies
   StiffestMode worst;
   for (const auto &[frequency, mode] : {std::pair(std::sqrt(kn / bodies.m), NORMAL),
                                         std::pair(std::sqrt(3.5 * kt / bodies.m), TANGENTIAL),
-                                        std::pair(std::sqrt(kq / bodies.I), TWISTING),
                                         std::pair(std::sqrt(kr / bodies.I), ROLLING)})
     worst = std::max(worst, StiffestMode{frequency, overlap, least, impact, bodies.m, slow2, mode});
   return worst;

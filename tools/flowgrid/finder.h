@@ -105,13 +105,19 @@ class Finder {
         high[c] = std::max(high[c], p[c]);
       }
     const int dim = mesh.dim();
-    double volume = 1.0;
-    for (int c = 0; c < dim; c++) volume *= std::max(high[c] - low[c], 1e-300);
-    const double edge = std::pow(volume / std::max(mesh.size(), 1), 1.0 / std::max(dim, 1));
+    double largest = 1e-200, share = 1.0;    // of the volume in the cube of the largest extent
+    for (int c = 0; c < dim; c++) largest = std::max(largest, high[c] - low[c]);
+    Point extent{};    // however flat the mesh is
+    for (int c = 0; c < dim; c++) {
+      extent[c] = std::max(high[c] - low[c], 1e-12 * largest);
+      share *= extent[c] / largest;
+    }
+    const double edge =
+        largest * std::pow(share / std::max(mesh.size(), 1), 1.0 / std::max(dim, 1));
     std::int64_t all = 1;
     for (int c = 0; c < dim; c++) {
-      bins[c] = static_cast<int>(std::min(std::max((high[c] - low[c]) / edge, 1.0), 1000.0));
-      bin_size[c] = std::max((high[c] - low[c]) / bins[c], 1e-300);
+      bins[c] = static_cast<int>(std::min(std::max(extent[c] / edge, 1.0), 1000.0));
+      bin_size[c] = extent[c] / bins[c];
       all *= bins[c];
     }
     first.assign(all + 1, 0);

@@ -102,10 +102,16 @@ FoamCase::FoamCase(const std::string &path, const std::vector<std::string> &wall
 
 void FoamCase::set_patch(size_t number, const std::string &name, vtkPolyData *faces)
 {
-  if (number == patches.size())
+  if (number == patches.size()) {
     patches.push_back({name, faces, {}, false});
-  else
-    patches[number].faces = faces;
+    return;
+  }
+  auto &patch = patches[number];
+  if (faces->GetNumberOfPoints() != patch.faces->GetNumberOfPoints())
+    throw std::runtime_error(given + ": patch " + name + " has " +
+                             std::to_string(faces->GetNumberOfPoints()) + " points at a time, " +
+                             std::to_string(patch.faces->GetNumberOfPoints()) + " at another");
+  patch.faces = faces;
 }
 
 void FoamCase::find_points(vtkDataSet *mesh)
@@ -117,8 +123,13 @@ void FoamCase::find_points(vtkDataSet *mesh)
   for (auto &patch : patches) {
     patch.wall = type_of(block_of(boundary, patch.name)) == "wall";
     for (const auto &name : wall_names) patch.wall |= name == patch.name;
-    for (vtkIdType p = 0; p < patch.faces->GetNumberOfPoints(); p++)
-      patch.point.push_back(static_cast<int>(locator->FindClosestPoint(patch.faces->GetPoint(p))));
+    for (vtkIdType p = 0; p < patch.faces->GetNumberOfPoints(); p++) {
+      const auto nearest = locator->FindClosestPoint(patch.faces->GetPoint(p));
+      if (nearest < 0)
+        throw std::runtime_error(given + ": patch " + patch.name +
+                                 " has a point that is near none of the mesh");
+      patch.point.push_back(static_cast<int>(nearest));
+    }
   }
   for (const auto &name : wall_names)
     if (std::none_of(patches.begin(), patches.end(), [&](const Patch &patch) {

@@ -15,15 +15,16 @@ namespace {
     return text_of(x[0]) + " " + text_of(x[1]) + " " + text_of(x[2]);
   }
 
-  double size_of(const Surface &surface)
+  Box box_of(const Surface &surface)
   {
     Box box;
     for (const auto &p : surface.points) box.add(p);
-    return length(box.high - box.low);
+    return box;
   }
 
-  // points closer than the tolerance become one
-  int merge_points(Surface &surface, double tolerance)
+  // Points closer than the tolerance become one. Cells count from the lower corner of the surface,
+  // which keeps their numbers small wherever that is.
+  int merge_points(Surface &surface, const Point &low, double tolerance)
   {
     std::unordered_multimap<size_t, int> cells;
     std::vector<Point> kept;
@@ -33,7 +34,7 @@ namespace {
     };
     for (const auto &p : surface.points) {
       long long at[3];
-      for (int c = 0; c < 3; c++) at[c] = std::llround(p[c] / (2.0 * tolerance));
+      for (int c = 0; c < 3; c++) at[c] = std::llround((p[c] - low[c]) / (2.0 * tolerance));
       int found = -1;
       for (int n = 0; n < 27 && found < 0; n++) {
         const auto [from, to] =
@@ -226,9 +227,14 @@ std::vector<std::array<int, 3>> neighbors_of(const std::vector<std::array<int, 3
 
 Repairs make_whole(Surface &surface, const Grid &grid)
 {
-  const double tolerance = 1e-9 * size_of(surface);
+  const Box box = box_of(surface);
+  const double size = length(box.high - box.low), tolerance = 1e-9 * size;
+  if (surface.triangles.empty() || !(tolerance > 0.0))
+    throw std::runtime_error("the surface has no triangles, or all its points are one");
+  if (!std::isfinite(size))
+    throw std::runtime_error("the surface is too large: its size is no number");
   Repairs done;
-  done.merged = merge_points(surface, tolerance);
+  done.merged = merge_points(surface, box.low, tolerance);
   done.degenerate = remove_degenerate(surface, tolerance);
   done.duplicate = remove_duplicates(surface);
   if (surface.triangles.empty()) throw std::runtime_error("the surface has no triangles");

@@ -1,6 +1,7 @@
 #include "surface_input.h"
 
 #include "decimals.h"
+#include "input_parts.h"
 #include "shape_parser.h"
 #include "vtk_guard.h"
 
@@ -86,7 +87,7 @@ SurfaceWords::SurfaceWords(const std::string &words) : file(words.substr(0, word
   const size_t colon = words.rfind(':');
   name = colon == std::string::npos ? std::filesystem::path(file).stem().string()
                                     : words.substr(colon + 1);
-  if (!std::filesystem::exists(file)) throw std::runtime_error(file + ": does not exist");
+  check_is_file(file);
   const std::string end = extension(file);
   if (end != ".stl" && end != ".vtp" && end != ".obj")
     throw std::runtime_error(file + ": a surface must be .stl, .vtp or .obj");

@@ -1,5 +1,6 @@
 #include "vtk_formats.h"
 
+#include "input_parts.h"
 #include "plot3d_text.h"
 
 #include <vtkCGNSReader.h>
@@ -33,7 +34,7 @@ namespace {
   vtkSmartPointer<vtkAlgorithm> plot3d(const std::string &path, const std::string &solution)
   {
     if (solution.empty()) stop(path, "a PLOT3D grid needs its solution: --solution FILE.q");
-    if (!fs::exists(solution)) stop(solution, "does not exist");
+    check_is_file(solution);
     auto reader = vtkSmartPointer<vtkMultiBlockPLOT3DReader>::New();
     reader->SetXYZFileName(path.c_str());
     reader->SetQFileName(solution.c_str());

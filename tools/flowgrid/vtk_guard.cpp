@@ -1,19 +1,14 @@
 #include "vtk_guard.h"
 
-#include "foam_case.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <set>
-#include <vector>
 
 #include <vtkCellArray.h>
 #include <vtkCellType.h>
@@ -120,79 +115,6 @@ namespace {
     }
   }
 
-}    // namespace
-
-namespace {
-
-  namespace fs = std::filesystem;
-
-  // what a .vtm names as file="...", in its first 64 Mbytes
-  std::vector<std::string> files_named_in(const fs::path &path)
-  {
-    std::error_code none;
-    std::string text(std::min<std::uintmax_t>(fs::file_size(path, none), 1 << 26), ' ');
-    std::ifstream(path, std::ios::binary)
-        .read(text.data(), static_cast<std::streamsize>(text.size()));
-    std::vector<std::string> names;
-    for (size_t at = 0; (at = text.find("file=", at)) != std::string::npos;) {
-      const size_t begin = (at += 5) + 1,
-                   end = at < text.size() ? text.find(text[at], begin) : std::string::npos;
-      if (end != std::string::npos) names.push_back(text.substr(begin, end - begin));
-    }
-    return names;
-  }
-
-  // The files that a file or an OpenFOAM case consists of, each counted once, though a block may be
-  // named many times.
-  class Parts {
-   public:
-    explicit Parts(const fs::path &path)
-    {
-      if (FoamCase::is_path_of_one(path))
-        add_folder(fs::is_directory(path) ? path : fs::absolute(path).parent_path());
-      else
-        add(path);
-    }
-    double bytes = 0.0;    // INFINITY if they are not known
-
-   private:
-    std::vector<fs::path> above;    // those that name the one that is looked at
-    std::set<fs::path> known;
-
-    // Links to folders are followed, as VTK does: a mesh may be kept elsewhere.
-    void add_folder(const fs::path &path)
-    {
-      const auto options = fs::directory_options::follow_directory_symlink |
-          fs::directory_options::skip_permission_denied;
-      std::error_code failed, none;
-      fs::recursive_directory_iterator it(path, options, failed);
-      for (; !failed && it != fs::end(it); it.increment(failed)) {
-        const bool fresh = known.insert(fs::canonical(it->path(), none)).second;
-        if (it->is_directory(none) && !fresh) it.disable_recursion_pending();
-        if (it->is_regular_file(none) && fresh) bytes += static_cast<double>(it->file_size(none));
-      }
-      if (failed) bytes = INFINITY;
-    }
-    void add(const fs::path &path)
-    {
-      std::error_code none;
-      if (!fs::is_regular_file(path, none)) bytes = INFINITY;
-      if (!std::isfinite(bytes)) return;
-      const fs::path self = fs::canonical(path, none);
-      if (std::find(above.begin(), above.end(), self) != above.end())
-        stop(path, "is a block of itself");
-      if (!known.insert(self).second) return;
-      bytes += static_cast<double>(fs::file_size(path, none));
-      if (path.extension() != ".vtm") return;
-      above.push_back(self);
-      for (const auto &name : files_named_in(path)) {
-        const fs::path other = (path.parent_path() / name).lexically_normal();
-        if (fs::is_regular_file(other, none)) add(other);
-      }
-      above.pop_back();
-    }
-  };
-
   // Memory for that many bytes of files: zlib makes no more than 1032 bytes of one.
   rlim_t memory_for(double bytes)
   {
@@ -219,13 +141,20 @@ ReadByVtk::ReadByVtk(const std::string &file) : name_before(file_read), limit_be
   rlimit memory{};
   getrlimit(RLIMIT_DATA, &memory);
   limit_before = memory.rlim_cur;
-  if (limit_before != RLIM_INFINITY) {    // else without guard_against_files(): fuzzers
-    const double bytes = Parts(file).bytes;
-    memory.rlim_cur = std::min(memory.rlim_cur, memory_for(bytes));
-    setrlimit(RLIMIT_DATA, &memory);
-    if (!name_before) begin_timer(bytes);
-  }
-  file_read = file.c_str();    // from here on nothing throws
+  file_read = file.c_str();
+  std::error_code none;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(file, none));
+  if (limit_before != RLIM_INFINITY && !name_before) begin_timer(none ? INFINITY : bytes);
+}
+
+void ReadByVtk::limit_for(double bytes) const
+{
+  if (limit_before == RLIM_INFINITY) return;    // without guard_against_files(): fuzzers
+  rlimit memory{};
+  getrlimit(RLIMIT_DATA, &memory);
+  memory.rlim_cur = std::min(limit_before, memory_for(bytes));
+  setrlimit(RLIMIT_DATA, &memory);
+  if (!name_before) begin_timer(bytes);
 }
 
 ReadByVtk::~ReadByVtk()
@@ -247,15 +176,24 @@ void check_cells(const std::string &file, vtkDataSet *set)
          {surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips()})
       check_corners(file, cells, npoints);
   auto *grid = vtkUnstructuredGrid::SafeDownCast(set);
+  if (!grid && set->GetNumberOfCells() > 0 && !set->GetCell(0))
+    stop(file, "says that it has cells, but has none");
   if (!grid || !grid->GetCells()) return;
   check_corners(file, grid->GetCells(), npoints);
+  std::array<bool, 256> known{};
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); c++) {
-    const auto expected = corners_of(grid->GetCellType(c));
+    const int type = grid->GetCellType(c);
+    const auto expected = corners_of(type);
     if (expected && grid->GetCells()->GetCellSize(c) != expected)
       stop(file,
            "cell " + std::to_string(c) + " has " +
                std::to_string(grid->GetCells()->GetCellSize(c)) + " corners, but its type has " +
                std::to_string(expected));
+    if (!known.at(type & 255) && !grid->GetCell(c))
+      stop(file,
+           "cell " + std::to_string(c) + " is of the type " + std::to_string(type) +
+               ", which VTK does not know");
+    known.at(type & 255) = true;
   }
 }
 
@@ -280,6 +218,9 @@ void guard_against_files()
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = SIGPROF;
   if (timer_create(CLOCK_PROCESS_CPUTIME_ID, &event, &timer) != 0) return;    // nor limits
+#ifdef __SANITIZE_ADDRESS__
+  return;    // its own memory is larger than any limit
+#endif
 
   const double pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   rlimit memory{};

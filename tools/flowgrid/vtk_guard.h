@@ -4,6 +4,8 @@
 #ifndef FLOWGRID_VTK_GUARD_H
 #define FLOWGRID_VTK_GUARD_H
 
+#include "input_parts.h"
+
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -14,8 +16,8 @@ class vtkDataSet;
 
 namespace flowgrid {
 
-// That the corners of cells are points of the mesh, and as many as the types of the cells have: VTK
-// follows what is in the file. Throws std::runtime_error.
+// That the corners of cells are points of the mesh, and as many as the types of the cells have,
+// which VTK knows: it follows what is in the file. Throws std::runtime_error.
 void check_cells(const std::string &file, vtkDataSet *set);
 
 // Once in main(): a crash or exit while VTK reads ends the program with status 1 and a message that
@@ -23,12 +25,13 @@ void check_cells(const std::string &file, vtkDataSet *set);
 // std::bad_alloc, instead of given until the kernel kills it.
 void guard_against_files();
 
-// Until it is destroyed: notes the file that is read, and bounds the memory and the time that it
-// may take.
+// Until it is destroyed: notes the file that is read, and bounds the time that it may take; from
+// limit_for() on memory and time of so many bytes of files.
 class ReadByVtk {
  public:
   explicit ReadByVtk(const std::string &file);
   ~ReadByVtk();
+  void limit_for(double bytes) const;
   ReadByVtk(const ReadByVtk &) = delete;
   ReadByVtk &operator=(const ReadByVtk &) = delete;
 
@@ -37,11 +40,13 @@ class ReadByVtk {
   rlim_t limit_before;
 };
 
-// Does the work that reads a file by VTK; std::bad_alloc becomes an error with its name.
+// Does the work that reads a file by VTK; std::bad_alloc becomes an error with its name. What the
+// file names is looked at before, in the time that the file alone may take.
 template <class Work> void by_vtk(const std::string &file, const Work &work)
 {
   const ReadByVtk reading(file);
   try {
+    reading.limit_for(bytes_of_input(file));
     work();
   } catch (const std::bad_alloc &) {
     throw std::runtime_error(file + ": asks for more memory than there is, or is damaged");

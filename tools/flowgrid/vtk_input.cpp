@@ -81,6 +81,12 @@ VtkInput::VtkInput(const std::string &path, const std::vector<std::string> &wall
     read(steps.empty() ? 0 : static_cast<int>(steps.size()) - 1);
     if (vtk->grid->GetNumberOfPoints() > 2000000000 || vtk->grid->GetNumberOfCells() > 400000000)
       stop(file, "has too many points or cells");
+    for (vtkIdType p = 0; p < vtk->grid->GetNumberOfPoints(); p++) {
+      const double *x = vtk->grid->GetPoint(p);
+      for (int c = 0; c < 3; c++)
+        if (!(std::fabs(x[c]) < 1e100))
+          stop(file, "point " + std::to_string(p) + " is not finite, or beyond 1e100");
+    }
     cells = mesh_of(vtk->grid);
     if (vtk->foam) vtk->foam->find_points(vtk->grid);
   });

@@ -93,8 +93,47 @@ namespace {
     bodies.add_load(j, f, torque_j);
   }
 
+  // of the normal law, 0 at a = 0. JKR: Chokshi, Tielens, Hollenbach, doi:10.1086/172562
+  double elastic_energy(const ContactConstants &c, double overlap, double a)
+  {
+    if (c.neck6 == 0.0) return 0.4 * c.K * c.R * std::pow(std::max(overlap, 0.0) / c.R, 2.5);
+    const double a0 = c.R * std::cbrt(c.neck6 * c.neck6), h = a / a0;
+    const double pulloff_force = 0.25 * c.K * c.neck6 * c.neck6;
+    const double pulloff_overlap = a0 * a0 / (2.0 * std::cbrt(6.0) * c.R);
+    return 4.0 * std::cbrt(6.0) * pulloff_force * pulloff_overlap *
+        (0.8 * std::pow(h, 5.0) - 4.0 / 3.0 * std::pow(h, 3.5) + h * h / 3.0);
+  }
+
+  template <class Frame>
+  ContactParts parts_of(const ContactConstants &c, const ContactHistory &h,
+                        const ContactInput<Frame> &in, const ContactOutput<Frame> &out)
+  {
+    const Frame frame{(1.0 / std::sqrt(dot(in.d, in.d))) * in.d};
+    ContactParts p{};
+    p.overlap = out.overlap;
+    p.contact_radius = c.R * out.s * out.s;
+    p.elastic = out.elastic;
+    p.damping = out.damping;
+    copy(frame.force(out.sliding), p.sliding);
+    copy_spin(out.rolling, p.rolling);
+    p.twisting = out.twisting;
+    copy(out.force, p.force);
+    if (out.overlap < c.break_overlap) return p;
+    const double a = p.contact_radius;
+    const double k_sliding = c.kt * a / c.R;                       // 8 G a, eq (25)
+    const double k_twisting = 0.5 * k_sliding * a * a;             // eq (31)
+    const double k_rolling = c.roll_k * std::pow(a / c.R, 1.5);    // 4 F_C (a/a0)^(3/2), eq (44)
+    const auto slid = tangent_in_frame(h.sliding, typename Frame::Tangent()),
+               rolled = tangent_in_frame(h.rolling, typename Frame::Tangent());
+    p.elastic_energy = elastic_energy(c, out.overlap, a);
+    p.sliding_energy = 0.5 * k_sliding * norm2(slid);
+    p.twisting_energy = 0.5 * k_twisting * h.twisting * h.twisting;
+    p.rolling_energy = 0.5 * k_rolling * norm2(rolled) / c.R;    // displacement over R: angle
+    return p;
+  }
+
   template <class Frame, bool adhesion, bool sliding, bool twisting, bool rolling>
-  int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactReader *)
+  int kernel(ContactList &list, Bodies &bodies, ContactTimes times, ContactReader *reader)
   {
     using Vector = typename Frame::Vector;
     using Tangent = typename Frame::Tangent;
@@ -116,6 +155,7 @@ namespace {
       if (twisting && !Frame::planar) h.twisting = memory.twisting;
       if ((sliding || rolling) && !Frame::planar) copy(memory.normal, h.normal);
       list.update(k, out.overlap, times.advance > 0.0 ? h : list.history_of(k));
+      if (reader) reader->read(k, parts_of(constants, list.history_of(k), in, out));
       ended += list.ended(k);
     }
     return ended;

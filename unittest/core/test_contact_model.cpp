@@ -138,3 +138,24 @@ TEST(Stiffness, of_the_report_channel)
   EXPECT_NEAR(stiffest_mode(model, bodies).frequency / normal, 2.19, 0.01);
   EXPECT_STREQ(stiffest_mode(model, bodies).name(), "tangential");
 }
+
+// k_T a0^2 / 2 over the moment of inertia, at the largest overlap at rest with which a run begins,
+// r/2: it need not be asked for
+TEST(Stiffness, twisting_is_slower_than_sliding)
+{
+  const double E = 1e6, nu = 0.3, r = 1.0, m = 1.0, I = 0.4 * m * r * r;
+  for (const auto &bodies :
+       {ContactBodies::wall(r, m, I), ContactBodies::pair(r, r, 0.5 * m, 0.5 * I),
+        ContactBodies::pair(r, 1000.0 * r, m, I)}) {
+    const double a0 = std::sqrt(3.0 * bodies.R * 0.5 * r), E_eff = 0.5 * E / (1.0 - nu * nu);
+    const double gamma = a0 * a0 * a0 * E_eff / (9.0 * M_PI * bodies.R * bodies.R);
+    ContactModel model;
+    model.surface = interface({E, nu, gamma}, {E, nu, gamma});
+    model.mu = 0.3;
+    model.twisting = true;
+    const double k_T = 8.0 * a0 * 0.25 * E / ((1.0 + nu) * (2.0 - nu));
+    const double twisting = std::sqrt(0.5 * k_T * a0 * a0 / bodies.I);
+    EXPECT_NEAR(twisting / stiffest_mode(model, bodies).frequency, a0 / r / std::sqrt(2.8), 1e-9);
+    EXPECT_LT(twisting, stiffest_mode(model, bodies).frequency);
+  }
+}

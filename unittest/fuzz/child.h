@@ -14,6 +14,12 @@
 
 namespace fuzz {
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool memory_is_bounded = false;    // the sanitizer's own is larger than any bound
+#else
+constexpr bool memory_is_bounded = true;
+#endif
+
 // How a child ended: what it wrote, and its status or what killed it.
 struct Ended {
   std::string death, text;
@@ -30,7 +36,7 @@ template <class Work> Ended in_child(const Work &work, rlim_t seconds, rlim_t by
   if (child == 0) {
     close(ends[0]);
     const rlimit memory = {bytes, bytes}, time = {seconds, seconds + 5};
-    setrlimit(RLIMIT_AS, &memory);
+    if (memory_is_bounded) setrlimit(RLIMIT_AS, &memory);
     setrlimit(RLIMIT_CPU, &time);
     alarm(static_cast<unsigned>(30 * seconds));    // of the clock: it may wait for what never comes
     _exit(work(ends[1]));

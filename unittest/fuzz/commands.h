@@ -68,6 +68,7 @@ inline const std::string cloud = "fix cloud all flow/concentration 8 8 8 cloud 0
 struct Command {
   std::string before, command;
   int keep;    // words at the beginning that stay, since others would be another command
+  std::string after = {};    // what a right one needs before a run
 };
 
 inline const Command commands[] = {
@@ -136,26 +137,30 @@ inline const Command commands[] = {
      "fix lid all wall/levelset plane y 0 NULL jkr 1e6 0.3 10 sliding 0.3 move rotate 4 0 4 0 "
      "v_zero 0",
      4},
+    {nve + pair,
+     "fix lid all wall/levelset plane y 0 NULL jkr 1e6 0.3 10 sliding 0.3 move linear 0.1 v_zero "
+     "0",
+     4},
+    {nve, "pair_style granular/adhesive", 1, "pair_coeff * * jkr 1e6 0.3 10"},
+    {nve + pair + floor_below, "fix_modify floor energy yes virial yes respa 1", 2},
+    {nve + pair + air + "fix drag all flow/force air drag stokes\n",
+     "fix_modify drag virial no respa 1", 2},
 };
 
-// lower case; one of them is in every message of APF's own, and many of LAMMPS's
+// lower case; one of them begins every message of APF's own, and says nothing by itself
 inline const char *const names[] = {
     "pair granular/adhesive",
-    "pair_coeff",
-    "pair coeff",
-    "wall/levelset",
-    "flow/field",
-    "flow/force",
-    "flow/concentration",
-    "inlet/flow",
-    "nve/sphere/mts",
-    "aggregate/contact",
-    "wall/deposit",
-    "apf_advise",
+    "fix wall/levelset",
+    "fix flow/field",
+    "fix flow/force",
+    "fix flow/concentration",
+    "fix inlet/flow",
+    "fix nve/sphere/mts",
+    "compute aggregate/contact",
+    "compute wall/deposit",
+    "command apf_advise",
     "fix_modify",
-    "compute pair",
-    "atom type",
-    "lost atoms",
+    "pair_coeff",
 };
 
 }    // namespace fuzz

@@ -2,8 +2,8 @@
 // refused by a message with its name, or its fields are finite, mapped on a grid. Built and run by
 // unittest/fuzz/run.
 //
-// Several files are one input, each behind a line "//// NAME": the files of an OpenFOAM case, and
-// grid and solution of PLOT3D.
+// Several files are one input, each behind a line "//// NAME": the files of an OpenFOAM case, grid
+// and solution of PLOT3D, and a .vtm with its blocks.
 
 #include "input_folder.h"
 #include "require.h"
@@ -17,16 +17,19 @@
 namespace {
 
 const std::string ending = FUZZ_ENDING;
+std::string path;    // of the input
 
 std::string place(const fuzz::InputFolder &folder, const unsigned char *data, std::size_t size)
 {
   const std::string all(reinterpret_cast<const char *>(data), size);
-  if (ending != ".foam" && ending != ".xyz") return folder.write("input" + ending, data, size);
+  if (ending != ".foam" && ending != ".xyz" && ending != ".vtm")
+    return folder.write("input" + ending, data, size);
   folder.clear();
   for (const char *name :
-       {"input.foam", "input.xyz", "input.q", "system/controlDict", "constant/polyMesh/boundary",
-        "constant/polyMesh/points", "constant/polyMesh/faces", "constant/polyMesh/owner",
-        "constant/polyMesh/neighbour", "4/U", "4/p"}) {
+       {"input.foam", "input.xyz", "input.q", "input.vtm", "input/input_0.vts", "input/input_1.vti",
+        "system/controlDict", "constant/polyMesh/boundary", "constant/polyMesh/points",
+        "constant/polyMesh/faces", "constant/polyMesh/owner", "constant/polyMesh/neighbour", "4/U",
+        "4/p"}) {
     const std::string head = std::string("//// ") + name + "\n";
     const std::size_t at = all.find(head);
     if (at == std::string::npos) continue;
@@ -60,16 +63,32 @@ void map(flowgrid::VtkInput &input)
 
 }    // namespace
 
+#ifdef FUZZ_CGNS
+// CGNS's library, which is within VTK's, ends the program where it does not know a file, with the
+// empty one to begin with; the program itself answers that at its exit.
+extern "C" void vtkcgns_cgio_error_exit(const char *what)
+{
+  throw std::runtime_error(path + ": " + (what ? what : ""));
+}
+extern "C" int vtkcgns_cgio_cleanup() __attribute__((weak));    // closes what is left open
+#endif
+
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char *data, std::size_t size)
 {
   static const fuzz::InputFolder folder;
-  const std::string path = place(folder, data, size);
+  path = place(folder, data, size);
+  bool right = false;
   try {
     flowgrid::VtkInput input(path, {}, ending == ".xyz" ? folder / "input.q" : "");
     map(input);
+    right = true;
   } catch (const std::bad_alloc &) {    // the program names the file
   } catch (const std::runtime_error &error) {
     fuzz::require_reason(error.what(), {(folder / "input").c_str()});
   }
+  fuzz::tally.count(right);
+#ifdef FUZZ_CGNS
+  if (vtkcgns_cgio_cleanup) vtkcgns_cgio_cleanup();
+#endif
   return 0;
 }

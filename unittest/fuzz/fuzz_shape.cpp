@@ -49,8 +49,10 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char *data, std::size_t siz
     flowgrid::parse_shape(text, periods, tree);
   } catch (const std::runtime_error &error) {
     fuzz::require_reason(error.what(), {"--shape: ", "names of walls take"});
+    fuzz::tally.count(false);
     return 0;
   }
+  fuzz::tally.count(true);
   if (tree.carriers.size() <= 8) build_wall(tree, grid, periods);
   return 0;
 }

@@ -15,14 +15,16 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char *data, std::size_t siz
   static const fuzz::InputFolder folder;
   const std::string path = folder.write("input" FUZZ_ENDING, data, size);
   flowgrid::Surface surface;
+  bool right = false;
   try {
     flowgrid::read_surface(flowgrid::SurfaceWords(path + ":wall"), 1.0, surface);
+    right = true;
   } catch (const std::bad_alloc &) {    // the program names the file
-    return 0;
   } catch (const std::runtime_error &error) {
     fuzz::require_reason(error.what(), {path.c_str()});
-    return 0;
   }
+  fuzz::tally.count(right);
+  if (!right) return 0;
   for (const auto &point : surface.points)
     for (const double x : point) fuzz::require(std::isfinite(x), "points are finite");
   if (surface.triangles.size() > 1000) return 0;

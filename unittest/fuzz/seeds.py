@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """First inputs of the fuzzers that take words, or several files in one, and the way back.
 
-    seeds.py DATA BUILD             DATA: tools/flowgrid/test; writes into BUILD/foam and so on
+    seeds.py DATA BUILD             DATA: tools/flowgrid/test; writes into BUILD/foam and so on,
+                                    after seeds_vtk
     seeds.py --apart ENDING FILE FOLDER    puts the files of an input into FOLDER, as fuzz_mesh.cpp does
 """
 import gzip
@@ -10,6 +11,7 @@ import re
 import subprocess
 import sys
 
+blocks = ("input.vtm", "input/input_0.vts", "input/input_1.vti")
 case = ("system/controlDict", "constant/polyMesh/boundary", "constant/polyMesh/points", "constant/polyMesh/faces",
         "constant/polyMesh/owner", "constant/polyMesh/neighbour", "4/U", "4/p")
 shapes = ("a: box(-1,-1,-1, 1,1,1)", "b: difference(box(0,0,0, 9,2,1), cylinder(4,2,0, 4,2,1, 0.5))",
@@ -26,10 +28,10 @@ def apart(ending, path, folder):
     with open(path, "rb") as file:
         data = file.read()
     parts = {"input." + ending: data}
-    if ending in ("foam", "xyz"):
+    if ending in ("foam", "xyz", "vtm"):
         pieces = re.split(rb"(?:^|\n)//// ([^\n]*)\n", data)
         parts = {name.decode(errors="replace"): text for name, text in zip(pieces[1::2], pieces[2::2])}
-    known = case + ("input.foam", "input.xyz", "input.q")
+    known = case + blocks + ("input.foam", "input.xyz", "input.q")
     for name, text in parts.items():
         if name not in known and name != "input." + ending:
             continue
@@ -60,17 +62,19 @@ def main(data, build):
         write(f"{build}/foam/{name}",
               together([("input.foam", b"")] + [(f, contents(f"{data}/data/{name}/{f}")) for f in case]))
     write(f"{build}/vtkhdf_parts/right", bytes(300))
-    blocks = data + "/write_blocks.py"
+    if os.path.exists(build + "/blocks"):    # where VTK is
+        write(f"{build}/vtm/blocks", together([(f, contents(f"{build}/blocks/{f}")) for f in blocks]))
+    maker = data + "/write_blocks.py"
     grid, solution = build + "/grid", build + "/solution"
     for kind in ("ascii", "binary", "fortran"):
-        subprocess.run(["/usr/bin/python3", blocks, "plot3d", grid, solution, kind], check=True)
+        subprocess.run(["/usr/bin/python3", maker, "plot3d", grid, solution, kind], check=True)
         write(f"{build}/xyz/{kind}", together([("input.xyz", contents(grid)), ("input.q", contents(solution))]))
         if kind == "ascii":
             write(f"{build}/plot3d/blocks", contents(grid))
     write(build + "/plot3d/planar", b"2 3\n0 1 0 1 0 1\n0 0 1 1 2 2\n")
     write(build + "/plot3d/marks", b"1\n2 1 1\n0 1\n0 0\n0 0\n1 0\n")
     for where in ("Vertex", "CellCenter"):
-        subprocess.run(["/usr/bin/python3", blocks, "cgns", f"{build}/cgns/{where}", where], check=True)
+        subprocess.run(["/usr/bin/python3", maker, "cgns", f"{build}/cgns/{where}", where], check=True)
 
 
 if sys.argv[1] == "--apart":

@@ -126,7 +126,8 @@ void write_meshes()
   blocks->SetBlock(1, image);
   vtkNew<vtkXMLMultiBlockDataWriter> writer;
   writer->SetInputData(blocks);
-  writer->SetFileName(file_of("vtm", "blocks").c_str());
+  std::filesystem::create_directories(folder + "/blocks");    // seeds.py makes one input of them
+  writer->SetFileName((folder + "/blocks/input.vtm").c_str());
   writer->Write();
 }
 

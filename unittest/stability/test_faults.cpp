@@ -3,6 +3,7 @@
 // is none.
 
 #include "criterion.h"
+#include "fuzz/child.h"
 #include "scenes.h"
 #include "temporary_file.h"
 
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <set>
 
 #include <sys/resource.h>
@@ -161,9 +163,11 @@ TEST(RanksFaults, flow_file_replaced_in_mid_run)
   EXPECT_NE(said.find(file.path), std::string::npos) << said;
 }
 
-// The third frame of a series is read when it is due; the file is another by then
+// The third frame of a series is read when it is due; the file is another by then, or cut off. None
+// of what is there now becomes a velocity.
 TEST(RanksFaults, series_changed_in_mid_run)
 {
+  namespace fs = std::filesystem;
   const std::vector<double> times = {0.0, 0.1, 0.2, 0.3};
   const auto series = [&](double speed) {
     return [&times, speed](VtkhdfWriter &w) {
@@ -176,19 +180,63 @@ TEST(RanksFaults, series_changed_in_mid_run)
           times);
     };
   };
-  TemporaryFile file("apf_series");
-  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, series(2.0));
+  const std::string touched = "touched", half = "half of it", empty = "empty",
+                    written = "written anew", renamed = "another by its name";
+  for (const auto &change : {touched, half, empty, written, renamed}) {
+    const TemporaryFile file("apf_series"), other("apf_other_series");
+    file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, series(2.0));
+    other.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, series(5.0));
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}});
+    sim.run("fix air all flow/field file " + file.path +
+            " density 1e-3 viscosity 1e4\ntimestep 0.01\n"
+            "fix drag all flow/force air drag stokes\nfix nve all nve/sphere\nrun 5");
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (TemporaryFile::rank() == 0) {
+      if (change == touched)
+        fs::last_write_time(file.path, fs::file_time_type::clock::now());
+      else if (change == half || change == empty)
+        fs::resize_file(file.path, change == half ? fs::file_size(file.path) / 2 : 0);
+      else if (change == written)
+        fs::copy_file(other.path, file.path, fs::copy_options::overwrite_existing);
+      else
+        fs::rename(other.path, file.path);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    const auto said = sim.error_of("run 20");
+    EXPECT_NE(said.find(file.path), std::string::npos) << change << ": " << said;
+    EXPECT_NE(said.find("was changed after it had been opened"), std::string::npos)
+        << change << ": " << said;
+    EXPECT_NEAR(gather(sim, "v")[0], 2.0, 1e-6) << change;
+  }
+}
+
+// HDF5 1.10 follows the address of a list of names to nowhere. It may crash, but not without a line
+// that names the file.
+TEST(Faults, file_at_which_hdf5_crashes_is_named)
+{
+  const TemporaryFile file("apf_crash");
+  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, [](const double *, double, double *u) {
+      u[0] = 1.0;
+    });
+  });
+  {
+    std::fstream bytes(file.path, std::ios::binary | std::ios::in | std::ios::out);
+    bytes.seekp(0x78);    // addresses of the tree and of the names of the root
+    bytes << std::string(16, '\xff');
+  }
   Simulation sim;
   build(sim, {{4.0, 4.0, 4.0}});
-  sim.run("fix air all flow/field file " + file.path +
-          " density 1e-3 viscosity 1e4\ntimestep 0.01\n"
-          "fix drag all flow/force air drag stokes\nfix nve all nve/sphere\nrun 5");
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (TemporaryFile::rank() == 0)
-    std::filesystem::last_write_time(file.path, std::filesystem::file_time_type::clock::now());
-  MPI_Barrier(MPI_COMM_WORLD);
-  const auto said = sim.error_of("run 20");
-  EXPECT_NE(said.find("was changed after it had been opened"), std::string::npos) << said;
+  const auto work = [&](int out) {
+    dup2(out, 2);
+    std::cerr << sim.error_of("fix air all flow/field file " + file.path +
+                              " density 1e-3 viscosity 1");
+    return 0;
+  };
+  const auto ended = fuzz::in_child(work, 60, RLIM_INFINITY);
+  EXPECT_NE(ended.text.find("Fix flow/field file " + file.path + ": "), std::string::npos)
+      << ended.death << ended.text;
 }
 
 TEST(RanksFaults, nan_in_a_field_is_refused)

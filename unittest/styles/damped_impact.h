@@ -5,13 +5,14 @@
 
 #include "scenes.h"
 
-// e at the speed V, 0 where the bodies stay together
-inline double damped_restitution(const JkrCurve &curve, double m_eff, double alpha, double V)
+// e at the speed V, 0 where the bodies stay together; tau: of the drag of a fluid at rest
+inline double damped_restitution(const JkrCurve &curve, double m_eff, double alpha, double V,
+                                 double tau = INFINITY)
 {
   const double h = std::sqrt(m_eff * curve.delta_C() / curve.F_C()) / 500.0;
   auto slope = [&](double delta, double w) {
     const double eta = alpha * std::sqrt(m_eff * 4.0 / 3.0 * curve.E * curve.a(delta));
-    return -(curve.force(delta) + eta * w) / m_eff;
+    return -(curve.force(delta) + eta * w) / m_eff - w / tau;
   };
   double delta = 0.0, w = V;
   for (bool returns = false; delta > -curve.delta_C();) {

@@ -5,11 +5,11 @@
 
 #include "grid_scene.h"
 
-#include <algorithm>
-
 namespace matrix {
 
 constexpr int inner = 8, half = 30;    // steps of a collision in one of particles, of a run's half
+
+inline const std::vector<std::string> all_integrators = {"verlet", "respa", "mts"};
 
 struct Row {
   std::string name;
@@ -18,11 +18,20 @@ struct Row {
   std::vector<std::vector<std::string>> outputs;    // each group is compared to its largest value
   std::string shift = "4 4 4";                      // through periodic boundaries; empty: see below
   std::string no_shift, no_data = "data files have no contacts or counters";
-  bool pair_zero = false;
+  std::string data_pair;    // given again after read_data
   double begin = 0.0;    // what a cut changes: forces that follow velocities are taken anew there
   bool random = false;
   int empty = 0;    // steps in which some output is 0
-  std::vector<std::string> integrators = {"verlet", "respa", "mts"};
+  std::vector<std::string> integrators = all_integrators;
+
+  // for the table: with its integrators, if they are not the three
+  std::string full_name() const
+  {
+    if (integrators == all_integrators || integrators.size() == 1) return name;
+    std::string text;
+    for (const auto &one : integrators) text += (text.empty() ? " (" : ", ") + one;
+    return name + text + ")";
+  }
 };
 
 inline std::string box(const std::string &boundary)
@@ -85,14 +94,17 @@ inline const std::string agg =
     "c_agg[2] c_agg[3] c_agg[4] c_agg[5] c_agg[6]\n";
 inline const std::vector<std::string> of_agg = {"c_agg[1]", "c_agg[2]", "c_agg[3]"};
 
-// some of all sizes in a fluid, not in contact
+// Some of all sizes in a fluid, far from each other but for two in contact, without friction: what
+// a data file has is enough to find their contact again.
 inline std::string crowd()
 {
   std::vector<Mover> all;
   for (int n = 0; n < 40; n++)
     all.push_back({0.5 + n % 4 * 2.0 + 0.1 * (n % 7), 0.6 + n / 4 % 4 * 2.0, 0.7 + n / 16 * 2.0,
                    n % 3 ? 0.4 : 0.6, 3.0 * (n % 5) - 6.0, 40.0, 1.0 * (n % 3)});
-  return spheres(all) + "pair_style zero 1.0 nocoeff\npair_coeff * *\n";
+  all.push_back({3.0, 3.0, 6.7, 1.0, 38.0, 1.0, -0.5});
+  all.push_back({3.9, 3.4, 6.7, 1.0, 38.5, 1.1, -0.4});
+  return spheres(all) + pair_of(jkr);
 }
 
 struct Files {
@@ -207,9 +219,10 @@ inline std::vector<Row> table(const Files &files)
     row.styles = "fix air all flow/field uniform 30 9 1 density 0.2 viscosity 0.5\n"
                  "fix drag all flow/force air drag schiller torque yes lift saffman magnus yes "
                  "added_mass yes pressure yes gravity 0 0 -9 brownian 0.5 4711\n";
-    row.integrators = {"verlet"};    // added_mass refuses respa
+    row.integrators = {"verlet", "mts"};    // added_mass refuses respa
     row.outputs = {entries("f_drag", 1, 3)};
-    row.pair_zero = row.random = true;
+    row.data_pair = pair_of(jkr);
+    row.random = true;
     row.no_data = "";
     row.begin = 1e-2;
   }
@@ -219,9 +232,9 @@ inline std::vector<Row> table(const Files &files)
     row.styles = "variable u equal 30*sin(300*time)\n"
                  "fix air all flow/field uniform v_u 9 1 density 0.2 viscosity 0.5\n"
                  "fix drag all flow/force air drag stokes added_mass yes pressure yes\n";
-    row.integrators = {"verlet"};
+    row.integrators = {"verlet", "mts"};
     row.outputs = {entries("f_drag", 1, 3)};
-    row.pair_zero = true;
+    row.data_pair = pair_of(jkr);
     row.no_data = "data files have no rate of change of the flow";
     row.begin = 1e-3;
   }
@@ -230,8 +243,9 @@ inline std::vector<Row> table(const Files &files)
     row.start = box("p p p") + crowd();
     row.styles = "fix air all flow/field file " + files.series.path +
         " density 0.2 viscosity 0.5\nfix drag all flow/force air drag stokes torque yes\n";
+    row.integrators.push_back("mts 8 fluid 3");
     row.outputs = {{"f_air[6]"}, entries("f_drag", 1, 3)};
-    row.pair_zero = true;
+    row.data_pair = pair_of(jkr);
     row.no_data = "";
     row.begin = 1e-3;
   }
@@ -242,23 +256,19 @@ inline std::vector<Row> table(const Files &files)
                  "fix c all flow/concentration 16 16 16 cloud 0.8 method direct\n"
                  "fix drag all flow/force air drag difelice concentration c torque yes feedback "
                  "yes\n";
+    row.integrators.push_back("mts 8 fluid 3");
     row.outputs = {{"f_c[1]"}, {"f_c[2]"}, entries("f_drag", 1, 3)};
-    row.pair_zero = true;
+    row.data_pair = pair_of(jkr);
     row.no_data = "";
     row.begin = 1e-3;
   }
-  {
-    auto &row = add("fix nve/sphere/mts collision auto");
+  for (const std::string how : {"auto", "tolerance 0.01"}) {
+    auto &row = add("fix nve/sphere/mts collision " + how);
     row.start = box("p p p") + spheres(aggregate) + pair_of(lossy);
-    row.integrators = {"mts auto"};
-    row.outputs = {{"f_nve[1]"}, {"f_nve[3]"}};
+    row.integrators = {"mts " + how};
+    row.outputs = {{"f_nve[1]"}, {"f_nve[3]"}, {"f_nve[4]"}};
   }
-  for (auto &row : rows) {
-    row.styles += loads;
-    auto &all =
-        row.integrators;    // without a pair style that keeps contacts nothing is sub-stepped
-    if (row.pair_zero) all.erase(std::remove(all.begin(), all.end(), "mts"), all.end());
-  }
+  for (auto &row : rows) row.styles += loads;
   return rows;
 }
 
@@ -268,9 +278,9 @@ inline std::string integrate(const std::string &name)
   if (name == "respa")
     return "fix nve all nve/sphere\ntimestep " + digits(inner * dt) + "\nrun_style respa 2 " +
         std::to_string(inner) + " pair 1\n";
-  if (name == "mts auto")
-    return "fix nve all nve/sphere/mts collision auto\ntimestep " + digits(inner * dt) + "\n";
-  return mts(inner);
+  if (name == "mts") return mts(inner);
+  return "fix nve all nve/sphere/" + name.substr(0, 4) + "collision " + name.substr(4) +
+      "\ntimestep " + digits(inner * dt) + "\n";
 }
 
 }    // namespace matrix

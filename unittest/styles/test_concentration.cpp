@@ -2,6 +2,7 @@
 // conserved, closed form of one cloud, a uniform crowd, the same on any number of ranks.
 
 #include "concentration_scene.h"
+#include "criterion.h"
 
 #include <array>
 
@@ -157,6 +158,35 @@ TEST(Concentration, hinders_settling)
           "timestep 0.1\nrun 30\n");
   const double c = pi / 6.0 * 0.216, free = c * 1.0 / (3.0 * pi * 100.0 * 0.6);
   EXPECT_NEAR(-gather(sim, "v")[2] / free, std::pow(1.0 - c, 3.7), 1e-4);
+}
+
+// C24: clouds of a hundred spheres at one place add up to more than the whole volume. Drag is that
+// of c = 0.64, the largest there is, 0.36^-3.7 of that of a sphere alone, and nothing where nothing
+// slips.
+TEST(Concentration, clouds_that_overlap_leave_drag_finite)
+{
+  Simulation sim;
+  sim.run("units lj\natom_style sphere\natom_modify map array\nboundary p p p\n"
+          "region box block 0 10 0 10 0 10\nregion heap sphere 5 5 5 0.1\ncreate_box 1 box\n"
+          "create_atoms 1 random 100 4711 heap\nset type 1 diameter 0.4 density 1\n"
+          "pair_style zero 0.5 nocoeff\npair_coeff * *\nneighbor 0.4 bin\nfix move all nve/sphere\n"
+          "fix air all flow/field uniform 1 2 0 density 1 viscosity 1e4\n"
+          "fix c all flow/concentration 40 40 40 cloud 0.8\n"
+          "fix drag all flow/force air drag difelice concentration c torque yes lift saffman "
+          "magnus yes\ntimestep 1e-12\nrun 0\n");
+  EXPECT_GT(sim.value("f_c[2]"), 1.0) << "of the volume";
+  const double slow = 3.0 * pi * 1e4 * 0.4 * std::pow(0.36, -3.7);
+  const auto f = gather(sim, "f");
+  for (size_t i = 0; i < f.size(); i += 3) {
+    expect_criterion("C24 styles: drag in clouds of c > 1 over that at c = 0.64", f[i] / slow,
+                     0.999, 1.001);
+    EXPECT_NEAR(f[i + 1] / f[i], 2.0, 1e-9);
+    EXPECT_EQ(f[i + 2], 0.0) << "no lift";
+  }
+  sim.run("velocity all set 1 2 0\nrun 0\n");
+  expect_criterion("C24 styles: largest force without slip in clouds of c > 1",
+                   largest(gather(sim, "f")), 0.0, 0.0);
+  EXPECT_EQ(largest(gather(sim, "torque")), 0.0);
 }
 
 TEST(Concentration, other_commands_read_the_grid)

@@ -1,7 +1,7 @@
 // Contacts of pair granular/adhesive while particles change place, index, rank and run: a contact
 // knows nothing of that, so forces equal those of a twin to which nothing of it happens.
 
-#include "scenes.h"
+#include "integrators.h"
 
 namespace {
 
@@ -206,6 +206,14 @@ State interior_twin(double overlap)
   return state_of(sim);
 }
 
+void expect_unchanged(const std::string &way, const State &now, const State &twin)
+{
+  expect_same_loads(now, twin, tight);
+  expect_criterion("C10 styles: change of force and torque " + way + ", of them",
+                   std::max(difference(now.f, twin.f), difference(now.torque, twin.torque)), 0.0,
+                   tight);
+}
+
 State travelled(double overlap, const Scene &scene, const std::string &commands,
                 const std::string &velocity)
 {
@@ -228,9 +236,11 @@ TEST(RanksContactHistory, springs_travel_through_periodic_cells_and_ranks)
       Scene scene;
       scene.newton = newton;
       SCOPED_TRACE(newton + " " + velocity);
-      expect_same_loads(travelled(squeezed, scene, often, velocity), twin, tight);
+      expect_unchanged("through cells and ranks", travelled(squeezed, scene, often, velocity),
+                       twin);
       scene.before = "atom_modify sort 7 1.0";
-      expect_same_loads(travelled(squeezed, scene, often, velocity), twin, tight);
+      expect_unchanged("through cells and ranks", travelled(squeezed, scene, often, velocity),
+                       twin);
     }
 }
 
@@ -244,7 +254,8 @@ TEST(RanksContactHistory, springs_travel_along_each_decomposition)
     Scene scene;
     scene.processors = processors;
     SCOPED_TRACE(processors);
-    expect_same_loads(travelled(squeezed, scene, every_step, "64 64 64"), twin, tight);
+    expect_unchanged("along each division into ranks",
+                     travelled(squeezed, scene, every_step, "64 64 64"), twin);
   }
 }
 
@@ -258,7 +269,7 @@ TEST(RanksContactHistory, springs_travel_through_a_tiled_decomposition)
                               "bin\nneigh_modify delay 0 every 1 check no binsize 2\n"
                               "fix rcb all balance 50 1.0 rcb\n";
     SCOPED_TRACE(newton);
-    expect_same_loads(travelled(squeezed, scene, tiled, "64 32 16"), twin, tight);
+    expect_unchanged("through tiles", travelled(squeezed, scene, tiled, "64 32 16"), twin);
   }
 }
 
@@ -279,7 +290,7 @@ TEST(RanksContactHistory, stretched_necks_travel_too)
   const State twin = loads("0 0 0");
   ASSERT_GT(largest(twin.torque), 0.1);
   EXPECT_LT(twin.f[0] + twin.f[1] + twin.f[2], 0.0);    // pulled back
-  expect_same_loads(loads("64 -32 16"), twin, tight);
+  expect_unchanged("of a stretched neck through cells and ranks", loads("64 -32 16"), twin);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -288,8 +299,8 @@ TEST(RanksContactHistory, stretched_necks_travel_too)
 const std::string lossy =
     " jkr 1.0e6 0.25 100.0 damping tsuji 0.5 sliding 0.3 twisting yes rolling 0.02 ";
 const std::string bottom = "fix wall all wall/levelset plane z 0 NULL" + lossy + "\n";
-const std::string dynamics =
-    "fix nve all nve/sphere\nfix pull all gravity 50 vector 1 0.5 -1\n" + bottom;
+const std::string dynamics = "fix pull all gravity 50 vector 1 0.5 -1\n" + bottom;
+const std::string verlet = integrators[0].commands(dt);
 
 // three spheres, in contact with each other and, the lower two, with the wall, that slip and roll;
 // overlaps differ from those at rest
@@ -317,10 +328,10 @@ State after(const std::string &commands, const std::string &newton, double *begu
 TEST(RanksContactHistory, two_runs_are_one)
 {
   for (const auto &newton : both) {
-    const State reference = after("run 400", newton);
+    const State reference = after(verlet + "run 400", newton);
     ASSERT_GT(largest(reference.torque), 0.5);
-    expect_same(after("run 150\nrun 250", newton), reference, 1e-11);
-    expect_same(after("run 400 every 100 NULL", newton), reference, 1e-11);
+    expect_same(after(verlet + "run 150\nrun 250", newton), reference, 1e-11);
+    expect_same(after(verlet + "run 400 every 100 NULL", newton), reference, 1e-11);
   }
 }
 
@@ -328,22 +339,32 @@ TEST(RanksContactHistory, two_runs_are_one)
 TEST(RanksContactHistory, restart_goes_on)
 {
   const std::string file = scratch_file("restart");
-  for (const auto &newton : both) {
-    double begun = 0.0;
-    const State reference = after("run 400", newton, &begun);
-    for (const std::string &way :
-         {"run 150\nwrite_restart " + file, "restart 150 " + file + "\nrun 400"}) {
-      after(way, newton);
-      const bool within = way[1] == 'e';
-      const std::string from = within ? file + ".150" : file;
-      Simulation sim;
-      sim.run("read_restart " + from + "\n" + dynamics + "run 250");
-      SCOPED_TRACE(newton + " " + way);
-      expect_same(state_of(sim), reference, 1e-11);
-      EXPECT_EQ(sim.value("f_wall[8]"), begun) << "wall contacts begun since the first run";
-      for (const char *number : {"", ".150", ".300"}) std::remove((file + number).c_str());
+  for (const auto &newton : both)
+    for (const auto &integrator : integrators) {
+      double begun = 0.0;
+      const std::string integrate = integrator.commands(dt);
+      const State reference = after(integrate + integrator.run(400), newton, &begun);
+      const std::string cut = std::to_string(150 / integrator.inner);
+      for (const std::string &way : {integrator.run(150) + "write_restart " + file,
+                                     "restart " + cut + " " + file + "\n" + integrator.run(400)}) {
+        after(integrate + way, newton);
+        const bool within = way[1] == 'e';
+        Simulation sim;
+        sim.run("read_restart " + (within ? file + "." + cut : file) + "\n" + dynamics + integrate +
+                integrator.run(250));
+        SCOPED_TRACE(newton + " " + integrator.name + " " + way);
+        const auto now = state_of(sim);
+        double change = 0.0;
+        for (const auto part : {&State::x, &State::v, &State::omega, &State::f, &State::torque})
+          change = std::max(change, difference(now.*part, reference.*part));
+        expect_criterion(integrator.of("C10 *: change by a restart in contact, 250 steps later"),
+                         change, 0.0, 1e-14);
+        EXPECT_EQ(sim.value("f_wall[8]"), begun) << "wall contacts begun since the first run";
+        const std::string twice = "." + std::to_string(300 / integrator.inner);
+        for (const auto &number : {std::string(), "." + cut, twice})
+          std::remove((file + number).c_str());
+      }
     }
-  }
 }
 
 }    // namespace

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -259,6 +260,60 @@ TEST(PairWarnings, timestep_names_the_mode_and_one_that_does)
   }
 }
 
+// JKR's numbers of spheres of diameter and density 1, and the frequencies of a contact at rest
+struct AtRest {
+  double R, m, r = 0.5;    // of the contact; of the smaller sphere
+
+  double frequency(const std::string &mode, double E, double nu, double gamma) const
+  {
+    const double E_eff = 0.5 * E / (1.0 - nu * nu), G_eff = 0.25 * E / (1.0 + nu) / (2.0 - nu);
+    const double a0 = std::cbrt(9.0 * M_PI * gamma * R * R / E_eff);
+    if (mode == "normal") return std::sqrt(1.2 * E_eff * a0 / m);
+    if (mode == "tangential") return std::sqrt(3.5 * 8.0 * G_eff * a0 / m);
+    return std::sqrt(4.0 * 3.0 * M_PI * gamma * R * R / (0.4 * m * r * r));    // rolling
+  }
+};
+const struct {
+  std::string mode, law;
+  double gamma;
+} stiffest_modes[] = {{"normal", " rolling 0.02", 100.0},
+                      {"tangential", " sliding 0.3", 100.0},
+                      {"rolling", " rolling 0.02", 1.5e4}};
+
+// A number of collision steps is too small where omega dt > 0.8, which is told with the numbers;
+// the number that is named is quiet, and so are numbers that the fix chooses.
+void expect_enough_collision_steps(const std::string &who, const AtRest &contact,
+                                   const std::string &before)
+{
+  const int n = 10;
+  for (const auto &[mode, law, gamma] : stiffest_modes) {
+    SCOPED_TRACE(mode);
+    const double omega = contact.frequency(mode, 1e6, 0.25, gamma);
+    const auto log = [&, &mode = mode, &law = law, &gamma = gamma](double kappa,
+                                                                   const std::string &how) {
+      return log_of(before + " jkr 1e6 0.25 " + std::to_string(gamma) + law +
+                    "\nunfix move\nfix move all nve/sphere/mts collision " + how + "\ntimestep " +
+                    std::to_string(n * kappa / omega) + "\nrun 0");
+    };
+    const std::string words = "is too large for the";
+    EXPECT_EQ(log(0.796, "10").find(words), std::string::npos);
+    const std::string text = log(0.804, "10");
+    expect_words(text,
+                 {mode,
+                  {"WARNING: " + who + ": collision step ", "timestep / 10, " + words,
+                   mode + " mode of a contact, omega dt = 0.80", "collision 27 gives 0.3"}});
+    EXPECT_NEAR(number_before(text, ", timestep / 10") * omega, 0.804, 0.002);
+    for (const char *how : {"27", "13", "auto", "tolerance 0.01"})
+      EXPECT_EQ(log(0.804, how).find(words), std::string::npos) << how;
+  }
+}
+
+TEST(PairWarnings, collision_steps_too_few)
+{
+  expect_enough_collision_steps("Pair granular/adhesive", {0.25, M_PI / 12.0},
+                                particles + style + "pair_coeff * *");
+}
+
 TEST(WallErrors, contact_law)
 {
   expect_errors(particles, law_errors("fix w all wall/levelset plane y 0 10", "Fix wall/levelset"));
@@ -413,6 +468,14 @@ TEST(WallWarnings, overlap_and_timestep)
   const std::string quiet = log_of(start + "fix w all wall/levelset plane y 0 10 jkr 200 0 0.1\n" +
                                    "timestep " + std::to_string(0.7 * good) + "\nrun 0");
   EXPECT_EQ(quiet.find("WARNING"), std::string::npos) << quiet;
+}
+
+// particles between which no contact is stiff
+TEST(WallWarnings, collision_steps_too_few)
+{
+  expect_enough_collision_steps("Fix wall/levelset w", {0.5, M_PI / 6.0},
+                                particles + style + "pair_coeff * * jkr 1e-3 0.3 0\n" +
+                                    "fix w all wall/levelset plane y 0 10");
 }
 
 // What a user of granular particles forgets, told when the pair style looks at the scene.

@@ -1,7 +1,13 @@
 // fix nve/sphere/mts knows nothing of ranks, boundaries, cells and who owns a pair: each scene
-// equals the same scene computed well inside one box by velocity Verlet at the collision step.
+// equals the same scene computed well inside one box by velocity Verlet at the collision step, or,
+// where the fix chooses that step, by one rank.
 
 #include "scenes.h"
+
+#include "fix.h"
+#include "modify.h"
+
+#include <tuple>
 
 namespace {
 
@@ -19,6 +25,9 @@ struct Journey {
   std::string commands;
   std::vector<double> from = {4.0, 4.0, 4.0}, v = {0.0, 0.0, 0.0};
 };
+
+const std::vector<std::vector<double>> places = {
+    {4.0, 4.0, 4.0}, {2.0, 2.0, 2.0}, {7.875, 7.75, 0.125}, {3.625, 7.875, 4.25}};
 
 void set_out(Simulation &sim, const Journey &journey)
 {
@@ -39,9 +48,8 @@ void set_out(Simulation &sim, const Journey &journey)
 }
 
 // positions are relative to the first sphere, velocities to the journey
-State travelled(const Journey &journey, const std::string &integrate, int steps)
+State travelled(Simulation &sim, const Journey &journey, const std::string &integrate, int steps)
 {
-  Simulation sim;
   set_out(sim, journey);
   sim.run("neighbor 0.5 bin\n" + journey.commands + integrate + "run " + std::to_string(steps));
   State state = state_of(sim);
@@ -52,6 +60,12 @@ State travelled(const Journey &journey, const std::string &integrate, int steps)
       state.v[3 * n + c] -= journey.v[c];
     }
   return state;
+}
+
+State travelled(const Journey &journey, const std::string &integrate, int steps)
+{
+  Simulation sim;
+  return travelled(sim, journey, integrate, steps);
 }
 
 const State &reference()
@@ -76,8 +90,7 @@ TEST(RanksMtsRanks, the_bullet_hits)
 TEST(RanksMtsRanks, aggregate_across_ranks_and_boundaries)
 {
   for (const auto &newton : both)
-    for (const std::vector<double> &from : std::vector<std::vector<double>>{
-             {4.0, 4.0, 4.0}, {2.0, 2.0, 2.0}, {7.875, 7.75, 0.125}, {3.625, 7.875, 4.25}}) {
+    for (const auto &from : places) {
       Journey journey;
       journey.scene.newton = newton;
       journey.from = from;
@@ -124,6 +137,81 @@ TEST(RanksMtsRanks, neighbour_lists_built_often)
   expect_reference(journey, 1e-7);
 }
 
+// All ranks choose the same number of collision steps, and the one that a single rank chooses: it
+// follows the bullet, and the contact that asks for the finest step is on one of the ranks only.
+TEST(RanksMtsRanks, the_number_of_collision_steps_is_that_of_one_rank)
+{
+  for (const std::string how : {"auto", "tolerance 0.01"}) {
+    const std::string integrate =
+        "fix nve all nve/sphere/mts collision " + how + "\ntimestep " + digits(64 * dt) + "\n";
+    for (const auto &newton : both)
+      for (const auto &from : places) {
+        SCOPED_TRACE(how + " " + newton + " " + digits(from[0]));
+        Journey journey;
+        journey.scene.newton = newton;
+        journey.from = from;
+        const auto outcome = [&](MPI_Comm ranks) {
+          Simulation sim({}, ranks);
+          const State state = travelled(sim, journey, integrate, 25);
+          return std::make_tuple(state, sim.value("f_nve[1]"), sim.value("f_nve[4]"));
+        };
+        const auto [one, last, all] = outcome(MPI_COMM_SELF);
+        const auto [state, last_here, all_here] = outcome(MPI_COMM_WORLD);
+        expect_same(state, one, 1e-9);
+        EXPECT_EQ(last_here, last);
+        EXPECT_EQ(all_here, all);
+        EXPECT_GT(std::fabs(all - 25 * last), 5.0) << "of many numbers";
+        EXPECT_GT(all, 50.0);
+      }
+  }
+}
+
+// The kick of a touch or of an end may be half in one particle step and half in the next, whose
+// collision steps are of another length: what is given is one impulse. Pairs in which either sphere
+// is of another rank, across the middle or the border of the box, and a wall; in closed form e^2 =
+// 1 - (V_s/V)^2.
+TEST(RanksMtsRanks, impacts_between_steps_of_two_lengths)
+{
+  const Material material;
+  const double ratio = 1.5, exact = std::sqrt(1.0 - 1.0 / (ratio * ratio));
+  struct Way {
+    std::string newton, how;
+    double center;    // of the pair along x; 0: one sphere and the wall
+  };
+  const std::string coarse = "auto safety 0.1", fine = "tolerance 0.0005";
+  for (const auto &[newton, how, center] :
+       {Way{"on", coarse, 4.0}, Way{"off", fine, 4.0}, Way{"on", fine, 7.9},
+        Way{"off", coarse, 7.9}, Way{"on", coarse, 0.0}, Way{"on", fine, 0.0}}) {
+    SCOPED_TRACE(newton + " " + how + " " + digits(center));
+    const bool wall = center == 0.0;
+    const auto curve = wall ? material.wall() : material.pair();
+    const double V = ratio *
+        std::sqrt(2.0 * 0.935503 * curve.F_C() * curve.delta_C() / (pi / (wall ? 6.0 : 12.0)));
+    for (int n = 0; n < 12; n++) {
+      const double gap = 0.01 * (1.0 + n / 12.0) + 1e-5;
+      Scene scene;
+      scene.newton = newton;
+      scene.boundary = "p p f";
+      scene.processors = std::to_string(number_of_ranks()) + " 1 1";
+      scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr +
+          "\nfix wall all wall/levelset plane z 0 NULL" + jkr + "\nneighbor 2.0 bin\n";
+      const double x = center - 0.5 * (1.0 + gap);
+      Simulation sim;
+      build(sim,
+            wall ? std::vector<Sphere>{{4.0, 4.0, 0.5 + gap}}
+                 : std::vector<Sphere>{{x, 4.0, 4.0}, {std::fmod(x + 1.0 + gap, 8.0), 4.0, 4.0}},
+            scene);
+      set_motion(sim, 1, {wall ? 0.0 : 0.5 * V, 0.0, wall ? -V : 0.0}, {0.0, 0.0, 0.0});
+      if (!wall) set_motion(sim, 2, {-0.5 * V, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      sim.run("fix nve all nve/sphere/mts collision " + how + "\ntimestep " + digits(0.01 / V) +
+              "\nrun 40");
+      const auto v = gather(sim, "v");
+      EXPECT_NEAR((wall ? v[2] : v[3] - v[0]) / V, exact, 5e-4) << n;
+      EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+    }
+  }
+}
+
 // So many contacts that collision steps are taken tile by tile (contact/islands.h), but for
 // aggregates across the box's and the ranks' boundaries: every one moves as one alone does.
 TEST(RanksMtsRanks, each_of_many_aggregates_moves_as_one_alone)
@@ -157,6 +245,60 @@ TEST(RanksMtsRanks, each_of_many_aggregates_moves_as_one_alone)
       EXPECT_LT(v, 1e-8 * largest(reference().v));
       EXPECT_LT(omega, 1e-8 * largest(reference().omega));
     }
+}
+
+// Ghosts, and those of them that a collision step exchanges, of all ranks: in a gas so dilute that
+// none meet, though there are pairs in the neighbour list, and with more spheres in the box.
+struct Ghosts {
+  int all, exchanged;
+};
+
+Ghosts ghosts_of(const std::string &newton, const std::vector<Sphere> &more)
+{
+  Scene scene;
+  scene.newton = newton;
+  scene.processors = std::to_string(number_of_ranks()) + " 1 1";
+  scene.style = pair;
+  std::vector<Sphere> spheres = more;
+  for (int n = 0; n < 16; n++) spheres.push_back({0.25 + 0.5 * n, 0.5 + 1.35 * (n % 4), 6.0});
+  Simulation sim;
+  build(sim, spheres, scene);
+  for (int n = 0; n < 16; n++)
+    set_motion(sim, static_cast<int>(more.size()) + n + 1, {0.0, n % 2 ? 1.0 : -1.0, 0.5},
+               {0.0, 0.0, 1.0});
+  sim.run("neighbor 0.5 bin\n" + mts(16) + "run 2");
+  EXPECT_EQ(sim.value("f_nve[1]"), 16.0);
+  EXPECT_EQ(sim.value("f_nve[3]"), more.size() / 2);    // contacts
+  auto *lammps = sim.lammps();
+  int dim;
+  const auto *exchanged =
+      static_cast<int *>(lammps->modify->get_fix_by_id("nve")->extract("substep_ghosts", dim));
+  int mine[2] = {lammps->atom->nghost, *exchanged}, sum[2];
+  MPI_Allreduce(mine, sum, 2, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  return {sum[0], sum[1]};
+}
+
+// the middle of the box is a border between two ranks, its end one between ranks or images
+TEST(RanksMtsGhosts, collision_steps_exchange_partners_across_a_border_alone)
+{
+  const std::vector<Sphere> in_middle = {{3.51, 2.0, 2.0}, {4.49, 2.0, 2.0}},
+                            at_end = {{0.48, 4.0, 2.0}, {7.5, 4.0, 2.0}},
+                            beside_border = {{3.9, 6.0, 2.0}, {3.9, 6.98, 2.0}};
+  const int borders = number_of_ranks() > 1;
+  for (const auto &newton : both) {
+    SCOPED_TRACE("newton " + newton);
+    const int of_pair = newton == "on" ? 1 : 2;    // off: each rank has the other's sphere
+    const auto gas = ghosts_of(newton, {}), beside = ghosts_of(newton, beside_border),
+               middle = ghosts_of(newton, in_middle), end = ghosts_of(newton, at_end);
+    EXPECT_GE(gas.all, 8);
+    EXPECT_EQ(gas.exchanged, 0);
+    EXPECT_EQ(beside.exchanged, 0);
+    EXPECT_EQ(middle.exchanged, of_pair * borders);
+    EXPECT_EQ(end.exchanged, of_pair);
+    auto four = in_middle;
+    four.insert(four.end(), at_end.begin(), at_end.end());
+    EXPECT_EQ(ghosts_of(newton, four).exchanged, of_pair * (borders + 1));
+  }
 }
 
 }    // namespace

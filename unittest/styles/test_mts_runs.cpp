@@ -5,6 +5,7 @@
 #include "scenes.h"
 
 #include <fstream>
+#include <map>
 
 namespace {
 
@@ -23,9 +24,12 @@ void build_pile(Simulation &sim)
   set_motion(sim, 3, {2.0, 0.0, -1.0}, {0.0, -3.0, -2.0});
 }
 
-const std::string fixed = mts(20);
-const std::string automatic =
-    "fix nve all nve/sphere/mts collision auto safety 0.05\ntimestep " + digits(20 * dt) + "\n";
+std::string chosen(const std::string &how)
+{
+  return "fix nve all nve/sphere/mts collision " + how + "\ntimestep " + digits(20 * dt) + "\n";
+}
+const std::string fixed = mts(20), automatic = chosen("auto safety 0.05"),
+                  tolerant = chosen("tolerance 0.001");
 
 State after(const std::string &commands)
 {
@@ -35,9 +39,24 @@ State after(const std::string &commands)
   return state_of(sim);
 }
 
+// The number of collision steps follows the contacts, as the next tests need it.
+TEST(RanksMtsRuns, tolerance_takes_many_numbers_of_steps)
+{
+  Simulation sim;
+  build_pile(sim);
+  sim.run(dynamics + tolerant + "run 0");
+  std::map<double, int> times;
+  for (int n = 0; n < 40; n++) {
+    sim.run("run 1 pre no post no");
+    times[sim.value("f_nve[1]")]++;
+  }
+  EXPECT_GT(times.size(), 3u);
+  EXPECT_GT(times.rbegin()->first, 4.0);
+}
+
 TEST(RanksMtsRuns, two_runs_are_one)
 {
-  for (const auto &integrate : {fixed, automatic}) {
+  for (const auto &integrate : {fixed, automatic, tolerant}) {
     const State reference = after(integrate + "run 40");
     ASSERT_GT(largest(reference.torque), 0.5);
     for (const char *cut :
@@ -51,7 +70,7 @@ TEST(RanksMtsRuns, two_runs_are_one)
 TEST(RanksMtsRuns, restart_goes_on)
 {
   const std::string file = scratch_file("restart");
-  for (const auto &integrate : {fixed, automatic}) {
+  for (const auto &integrate : {fixed, automatic, tolerant}) {
     double counted[2] = {};
     State reference;
     {
@@ -128,7 +147,11 @@ TEST(RanksMtsRuns, impacts_through_the_ends_of_runs)
     int steps;
   };
   const std::string verlet = "fix nve all nve/sphere\ntimestep " + digits(8 * dt) + "\n";
-  for (const auto &[integrate, steps] : {Way{verlet, 80}, Way{mts(8, 8 * dt), 10}}) {
+  const std::string follow =
+      "timestep " + digits(64 * dt) + "\nfix nve all nve/sphere/mts collision ";
+  for (const auto &[integrate, steps] :
+       {Way{verlet, 80}, Way{mts(8, 8 * dt), 10}, Way{follow + "auto\n", 10},
+        Way{follow + "tolerance 0.01\n", 10}}) {
     SCOPED_TRACE(integrate);
     const State whole = impacts(integrate + "run " + std::to_string(steps));
     // all have bounced, and fly apart at the speed that adhesion leaves them

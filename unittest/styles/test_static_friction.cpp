@@ -1,5 +1,5 @@
-// Static friction: a small particle jammed between large ones, the scene of arXiv:2410.14798, and
-// rolling without slip along a curved wall.
+// Static friction: rolling without slip along a curved wall. A small particle jammed between large
+// ones is a hard case, in stability/test_size_ratio.cpp.
 
 #include "simulation.h"
 
@@ -20,37 +20,6 @@ std::string number(double x)
 const std::string header =
     "units si\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
     "boundary f f f\n";
-
-// A sphere of 10 um sits in a wedge of 10 degrees between two frozen ones, `ratio` times as large,
-// and is shaken across it below the friction limit: it must stay. Returns how far it creeps [r].
-double creep(double ratio)
-{
-  const double r = 1e-5, R = ratio * r, D = R + r - 2e-8, angle = 5.0 * M_PI / 180.0;
-  const std::string x = number(-D * std::sin(angle)), y = number(D * std::cos(angle));
-  const std::string box = number(-3.0 * D) + " " + number(3.0 * D);
-  Simulation sim;
-  sim.run(header + "atom_modify sort 0 0\nneighbor 1e-6 bin\nregion b block " + box + " " + box +
-          " " + box +
-          "\n"
-          "create_box 2 b\ncreate_atoms 1 single 0 0 0\ncreate_atoms 2 single " +
-          x + " " + y + " 0\ncreate_atoms 2 single " + x + " -" + y +
-          " 0\nset type 1 diameter 2e-5 density 2600\n"
-          "set type 2 diameter " +
-          number(2.0 * R) +
-          " density 2600\n"
-          "group big type 2\ngroup small type 1\npair_style granular/adhesive\n"
-          "pair_coeff * * jkr 1e7 0.3 0 damping tsuji 0.3 sliding 0.5 twisting yes\n"
-          "fix n all nve/sphere\nfix hold big freeze\nvariable k equal 2e-8*sin(step*0.002)\n"
-          "fix shake small addforce 0 v_k 0\ntimestep 1e-8\nrun 20000");
-  const double before = sim.value("x[1]");
-  sim.run("run 40000");
-  return (sim.value("x[1]") - before) / r;
-}
-
-TEST(StaticFriction, holds_a_small_particle_between_large_ones)
-{
-  for (const double ratio : {1.0, 3.0, 10.0, 100.0}) EXPECT_NEAR(creep(ratio), 0.0, 1e-4) << ratio;
-}
 
 // A sphere that rolls in the bottom of a cylinder is a pendulum of length (R - r) with 7/5 of its
 // mass: T = 2 pi sqrt(7 (R - r) / (5 g)). After a period it is back, within the small amplitude's

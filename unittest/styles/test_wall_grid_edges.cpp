@@ -3,6 +3,7 @@
 
 #include "criterion.h"
 #include "grid_scene.h"
+#include "integrators.h"
 
 #include <algorithm>
 
@@ -157,23 +158,29 @@ TEST(WallGrid, edges_and_corner_of_a_box_are_rolled_over_without_loss)
 // A concave corner, one array for each side: two contacts, at rest where two planes hold it
 TEST(WallGrid, corner_holds_two_contacts)
 {
-  for (int dims : {2, 3}) {
+  for (int n = 0; n < 6; n++) {
+    const int dims = n % 2 ? 3 : 2;
+    const auto &integrator = integrators[n / 2];
     GridScene scene(
         dims, 0.25,
         {{"distance_floor", plane(0, 1, 0, 1.0)}, {"distance_side", plane(1, 0, 0, 1.0)}},
         {{1.49, 1.49, dims == 3 ? 4.0 : 0.0}}, jkr + "damping tsuji 0.1");
-    scene.sim.run("fix nve all nve/sphere\nfix g all gravity 500 vector -3 -4 0\nrun 5000");
+    scene.sim.run("fix g all gravity 500 vector -3 -4 0\n" + integrator.commands(dt) +
+                  integrator.run(5000));
+    SCOPED_TRACE(integrator.name);
     EXPECT_EQ(scene.sim.value("f_wall[7]"), 2.0);
-    EXPECT_NEAR(scene.sim.value("f_wall[1]") / (-300.0 * mass), 1.0, 1e-6);
-    EXPECT_NEAR(scene.sim.value("f_wall[2]") / (-400.0 * mass), 1.0, 1e-6);
+    // under r-RESPA gravity is a kick at the end of each outer step: it shakes what rests
+    const bool shaken = integrator.name == "respa";
+    if (!shaken) EXPECT_NEAR(scene.sim.value("f_wall[1]") / (-300.0 * mass), 1.0, 1e-6);
+    if (!shaken) EXPECT_NEAR(scene.sim.value("f_wall[2]") / (-400.0 * mass), 1.0, 1e-6);
     const auto x = gather(scene.sim, "x");
     for (const int c : {0, 1}) {
       const double load = (300.0 + 100.0 * c) * mass;
-      EXPECT_NEAR(material.wall().force(1.5 - x[c]), load, 1e-6 * load);
+      EXPECT_NEAR(material.wall().force(1.5 - x[c]), load, (shaken ? 0.02 : 1e-6) * load);
       double low = 0.0, high = 0.1;    // where a plane carries it
-      for (int n = 0; n < 60; n++)
+      for (int k = 0; k < 60; k++)
         (material.wall().force(0.5 * (low + high)) < load ? low : high) = 0.5 * (low + high);
-      expect_criterion("C16 verlet: place at rest in a concave corner, error over d",
+      expect_criterion(integrator.of("C16 *: place at rest in a concave corner, error over d"),
                        std::fabs(x[c] - (1.5 - low)), 0.0, 0.01);
     }
   }

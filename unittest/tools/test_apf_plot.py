@@ -158,6 +158,7 @@ class Plot(unittest.TestCase):
     def test_sizes(self):
         curves, axes = self.draw("sizes", self.file(SIZES))
         self.assertEqual(curves, {"step 50": ([1, 3], [3, 2])})    # 3 single ones, 2 aggregates of 3
+        self.assertEqual(apf_read.read_blocks(self.file(SIZES))[0].totals, (9, 0, 1, 3))    # none beyond the bins, sizes 1 to 3
         self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
         path = self.file(dump_of(0, ATOMS) + dump_of(7, ATOMS[1:]), "dump")
         curves, _ = self.draw("sizes", path, "--column", "c_agg[2]", "--steps", "0", "7")

@@ -36,6 +36,16 @@ class Cost(unittest.TestCase):
         self.assertEqual(row, {"run": "case-a", "t": "10", "ranks": "2", "wall-clock [s]": "40", "CPU [s]": "70", "MB": "9",
                                "parameters": "5 particles; jkr 1e9 0.3 0.1; timestep 2e-06"})
 
+    def test_parameters_name_drag_and_inlet(self):
+        scene = ("fix drag all flow/force air drag stokes ${forces}\nfix drag all flow/force air drag stokes torque yes\n"
+                 "fix in all inlet/flow x $(-L) air number ${n} every 10 diameter 1\n"
+                 "fix in all inlet/flow x -2.500000000e-05 air {} type 1\n")
+        for words, told in (("number 25 every 10 diameter 1e-6", "number 25 every 10 steps"),
+                            ("concentration 0.05 diameter 1e-6", "concentration 0.05")):
+            row = self.cost(HEAD + scene.replace("{}", words))
+            self.assertEqual(row["parameters"], "5 particles; jkr 1e9 0.3 0.1; drag stokes torque yes; "
+                             f"inlet at x = -2.5e-05, {told}; timestep 2e-06")
+
     def test_pieces_without_a_time_are_scaled_in_or_left_out(self):
         row = self.cost(HEAD + PIECE.format(30, 60, 100, 9))
         self.assertEqual((row["wall-clock [s]"], row["CPU [s]"]), ("50", "100"))
@@ -67,7 +77,7 @@ class Times(unittest.TestCase):
 
     def test_ratio_is_that_of_the_longest_piece(self):
         times = run_path(str(EXAMPLES / "report"))["times"]
-        rows = [dict(zip(("run", "to t", "ranks", "wall-clock [s]", "MB"), words.split(",")))
+        rows = [dict(zip(("run", "to t", "ranks", "wall-clock [s]", "MB", "processor"), f"{words},P".split(",")))
                 for words in ("a-x,,2,300,9", "a-x,5,1,10,9", "a-x,5,2,9,9", "a-x,20,1,80,9", "a-x,20,2,48,9", "a,,2,3.5,7")]
         runs = {name: {"run": name, "t": "100", "CPU [s]": cpu, "MB": "8"} for name, cpu in (("a-x", "500"), ("a-y", "200"),
                                                                                                 ("a-z", ""))}
@@ -75,8 +85,13 @@ class Times(unittest.TestCase):
         alone, _ = times({"a": runs}, rows[:1])
         self.assertEqual(alone[1]["from"], "processor time x 0.60", "300 s by two, 500 s of a processor")
         self.assertEqual([(row["two ranks [s]"], row["from"]) for row in full],
-                         [("300", "measured"), ("120", "processor time x 0.60"), ("", ""), ("", "")])
+                         [("300", "measured, P"), ("120", "processor time x 0.60"), ("", ""), ("", "")])
         self.assertEqual(quick, [{"example": "a", "two ranks [s]": "3.5", "MB": "7"}])
+
+    def test_sum_of_costs_tells_how_many_are_known(self):
+        costs = run_path(str(EXAMPLES / "report"))["costs"]
+        runs = [{"wall-clock [s]": "10", "CPU [s]": "20"}, {"wall-clock [s]": "", "CPU [s]": "5"}]
+        self.assertEqual(costs(runs), {"wall-clock [s] of all": "10 (1 of 2 runs)", "CPU [s] of all": "25"})
 
 
 if __name__ == "__main__":
