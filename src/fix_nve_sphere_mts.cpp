@@ -159,8 +159,8 @@ void FixNVESphereMTS::choose_steps()
 
 /* ----------------------------------------------------------------------
    The impulse that is due where contacts have just been made or ended stands in the last forces as
-   a force for the length of that collision step, and half of it has acted. Where steps are of another
-   length now, another force gives the other half.
+   a force for the length of that collision step, and half of it has acted. Where steps are of
+   another length now, another force gives the other half.
 ------------------------------------------------------------------------- */
 
 void FixNVESphereMTS::fit_due()
