@@ -1,7 +1,9 @@
 // What a contact costs in the kernel alone, by composition of sub-models, dimension and instruction
 // set; `scalar` is the law taken contact by contact. Time is per pass over all contacts of the scene,
 // per_contact that of one contact. `bridges` is the pass over liquid bridges alone, one for each of
-// the contacts and in dry contact itself, to be added to the kernel's time. Results: kernel.md.
+// the contacts and in dry contact itself, to be added to the kernel's time. `clock` is a chain of
+// additions, each of which waits for the one before: its per_contact is a cycle of the core.
+// Results: kernel.md.
 
 #include "../unittest/core/scalar_kernel.h"
 #include "contact/bridge_kernel.h"
@@ -56,6 +58,14 @@ void pass_bridges(benchmark::State &state, BridgeKernel (*kernel_of)(const Bridg
       bridges.size(), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+void chain_of_additions(benchmark::State &state)
+{
+  unsigned long sum = 0;
+  for (auto _ : state) asm volatile(".rept 1000\n add $1, %0\n .endr" : "+r"(sum));
+  state.counters["per_contact"] = benchmark::Counter(
+      1000, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 }    // namespace
 
 int main(int argc, char **argv)
@@ -92,6 +102,11 @@ int main(int argc, char **argv)
             ->ReportAggregatesOnly()
             ->Unit(benchmark::kMicrosecond);
       }
+  benchmark::RegisterBenchmark("clock", chain_of_additions)
+      ->MinTime(0.05)
+      ->Repetitions(9)
+      ->ReportAggregatesOnly()
+      ->Unit(benchmark::kMicrosecond);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -6,8 +6,8 @@
 
 Disassembles the program bench_kernel and counts, for each composition of sub-models, dimension and
 instruction set, instructions, vector arithmetic, shuffles, loads, stores, divisions, roots and
-estimates per contact; from these the cycles that a Golden Cove core (Sapphire Rapids) needs at
-least. --measure runs the program, two minutes; --times takes what it wrote, with
+estimates per contact; from these the cycles that a core of this machine needs at least, if it is
+one whose numbers are known: Golden Cove (Sapphire and Emerald Rapids) or Zen 5. --measure runs the program, two minutes; --times takes what it wrote, with
 --benchmark_format=json. With either the table is also written to results/kernel.txt, with a plot in
 results/kernel.png; --draw makes the plot anew from the table that is there. Needs objdump of
 Debian's binutils, and python3-matplotlib for the plot. kernel.md says more.
@@ -18,6 +18,7 @@ import re
 import subprocess
 from collections import Counter
 from pathlib import Path
+from typing import NamedTuple
 
 from lammps_runs import HERE, processor, prose, stop
 
@@ -26,19 +27,70 @@ SETS = ("baseline", "avx2", "avx512")
 COMPOSITIONS = {"normal": "1000", "damping": "1000", "sliding": "1100", "twisting": "1110",
                 "rolling": "1111", "hertz": "0000", "hertz-all": "0110"}
 
-# ---- what a Golden Cove core can do in a cycle
-# [O]: machine model osaca/data/spr.yml of OSACA (github.com/RRZE-HPC/OSACA), from uops.info and
-# measurements on Sapphire Rapids; [L]: X86SchedSapphireRapids.td of LLVM.
-ISSUE = 6        # micro-operations renamed [L]; an instruction is one or more
-LOADS = 3        # ports 2, 3, 11 [O] [L]
-LOADS_512 = 2    # of 512 bits: ports 2 and 3 [O]
-STORES = 2       # ports 4 and 9; one of 512 bits takes both [O]
-# Ports 0, 1 and 5 compute with vectors, port 1 not with those of 512 bits [O]. A product takes 0 or
-# 1, a shuffle 1 or 5: with three ports the bound is on the low side.
-PORTS = {"baseline": 3, "avx2": 3, "avx512": 2}
-SPLIT = 3        # micro-operations of a division [L] or estimate [O] of 512 bits
-DIVISION = {128: 4, 256: 8, 512: 16}    # cycles of the divider, which takes one at a time [O]
-ROOT = 9 / 8     # of a division: 3.36 ns beside 2.97 for four numbers, measured here (kernel.md)
+# ---- what a core can do in a cycle
+
+
+class Core(NamedTuple):
+    """What bounds a loop. Ports: units that compute with vectors, by instruction set."""
+    name: str
+    issue: int         # micro-operations renamed; an instruction is one or more
+    loads: int
+    loads_512: int     # of 512 bits
+    stores: int        # one of 512 bits counts as two
+    ports: dict
+    split: int         # micro-operations of a division or estimate of 512 bits
+    division: dict     # cycles of the divider, which takes one at a time, by bits
+    root: float        # of a division
+
+    def bounds(self, n, isa):
+        """Cycles that what was counted takes at least, for each of what may bound it."""
+        slow = sum(k * (self.split if key[1] == 512 else 1)
+                   for key, k in n.items() if key[0] in SLOW)
+        vector = sum(n["arithmetic", width] for width in self.division) + n["shuffles"] + slow
+        divider = sum(cycles * (n["divisions", width] + self.root * n["roots", width])
+                      for width, cycles in self.division.items())
+        return {"issue": n["instructions"] / self.issue,
+                "loads": max(n["loads"] / self.loads, n["loads", 512] / self.loads_512),
+                "stores": (n["stores"] + n["stores", 512]) / self.stores,
+                "ports": vector / self.ports[isa], "divider": divider}
+
+
+# By maker and family, and for some models. [O]: machine models osaca/data/spr.yml and zen5.yml of OSACA
+# (github.com/RRZE-HPC/OSACA), from measurements there; [L]: X86SchedSapphireRapids.td of LLVM;
+# [M]: throughput of a row of independent instructions over a chain of additions of one cycle each,
+# measured on such a core.
+GOLDEN_COVE = Core(
+    "Golden Cove", issue=6,      # [L]
+    loads=3, loads_512=2,        # ports 2, 3, 11; of 512 bits 2 and 3 [O] [L]
+    stores=2,                    # ports 4 and 9; one of 512 bits takes both [O]
+    # 0, 1 and 5, but 1 not with 512 bits [O]. A product takes 0 or 1, a shuffle 1 or 5: with three
+    # ports the bound is on the low side.
+    ports={"baseline": 3, "avx2": 3, "avx512": 2},
+    split=3,                     # of a division [L] or estimate [O]
+    division={128: 4, 256: 8, 512: 16},    # [O]
+    root=9 / 8)                  # 3.36 ns beside 2.97 for four numbers [M]
+ZEN_5 = Core(
+    "Zen 5", issue=8,            # [O]
+    loads=4, loads_512=2,        # four into integer registers, two vectors of any width [O]
+    stores=2,                    # ports 4 and 5; one of 512 bits takes both [O]
+    # A product takes 0 or 2, a sum 1 or 3 [O]: with four ports the bound is on the low side.
+    ports={"baseline": 4, "avx2": 4, "avx512": 4},
+    split=1,
+    division={128: 4, 256: 4, 512: 4}, root=7.5 / 4)    # [M]
+CORES = {("GenuineIntel", 6, 143): GOLDEN_COVE, ("GenuineIntel", 6, 207): GOLDEN_COVE,
+         ("AuthenticAMD", 26, None): ZEN_5}
+
+
+def this_core():
+    """The core of this machine; None if its numbers are not known."""
+    text = Path("/proc/cpuinfo").read_text()
+    words = [re.search(rf"^{word}\s*: (.*)$", text, re.M)
+             for word in ("vendor_id", "cpu family", "model")]
+    if not all(words):
+        return None
+    maker, family, model = words[0][1], int(words[1][1]), int(words[2][1])
+    return CORES.get((maker, family, model), CORES.get((maker, family, None)))
+
 
 # ---- reading a disassembly
 
@@ -148,18 +200,6 @@ def count(loop):
     return n
 
 
-def bounds(n, isa):
-    """Cycles that what was counted takes at least, for each of what may bound it."""
-    slow = sum(k * (SPLIT if key[1] == 512 else 1) for key, k in n.items() if key[0] in SLOW)
-    vector = sum(n["arithmetic", width] for width in DIVISION) + n["shuffles"] + slow
-    divider = sum(cycles * (n["divisions", width] + ROOT * n["roots", width])
-                  for width, cycles in DIVISION.items())
-    return {"issue": n["instructions"] / ISSUE,
-            "loads": max(n["loads"] / LOADS, n["loads", 512] / LOADS_512),
-            "stores": (n["stores"] + n["stores", 512]) / STORES,
-            "ports": vector / PORTS[isa], "divider": divider}
-
-
 # ---- measurements and the table
 
 def measured(text, unit="per_contact"):
@@ -188,7 +228,7 @@ HEAD = [f"{'':34s}{'per contact':60s}{'cycles at least':29s}{'bound':>7s}{'time'
         f"{'[ns]':>7s}{'[ns]':>8s}{'cv %':>6s}{'ratio':>7s}"]
 
 
-def line(name, functions, times, clock):
+def line(name, functions, times, core, clock):
     """One line of the table: counts and bounds where there are any, times where measured."""
     dims, composition, *between, isa = name.split("/")
     row, bound = f"{name:33s}" + " " * 97, None
@@ -198,11 +238,13 @@ def line(name, functions, times, clock):
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from None
         n = count(loop)
-        cycles = bounds(n, isa).values()
-        bound = max(cycles) / width / clock
+        cycles = list(core.bounds(n, isa).values()) if core else []
         row = f"{name:33s}" + "".join(
-            f"{number / width:6.1f}" for number in [n[key] for key in COUNTS] + list(cycles))
-        row += f"{bound:7.1f}"
+            f"{number / width:6.1f}" for number in [n[key] for key in COUNTS] + cycles)
+        if cycles:
+            bound = max(cycles) / width / clock
+            row += f"{bound:7.1f}"
+        row = f"{row:130s}"
     if name in times:
         median, variation = times[name]
         row += f"{median:8.1f}{100 * variation:6.1f}" + (f"{median / bound:7.1f}" if bound else "")
@@ -269,7 +311,8 @@ def arguments():
     source.add_argument("--measure", action="store_true", help="run the program, two minutes")
     source.add_argument("--times", type=Path, help="its output with --benchmark_format=json")
     source.add_argument("--draw", action="store_true", help="kernel.png anew from kernel.txt")
-    parser.add_argument("--clock", type=float, metavar="GHZ", help="default: that of /proc/cpuinfo")
+    parser.add_argument("--clock", type=float, metavar="GHZ", help="default: as measured, without --measure that of "
+                        "/proc/cpuinfo")
     parser.add_argument("--results", type=Path, default=HERE / "results", metavar="DIR")
     args = parser.parse_args()
     if args.draw:
@@ -280,14 +323,19 @@ def arguments():
     return args
 
 
-def find_clock(args):
+def find_clock(args, times):
     """The clock in GHz, and who says so."""
-    known = re.findall(r"^cpu MHz\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
-    clock = args.clock if args.clock is not None else max(map(float, known), default=0.0) / 1000.0
+    if args.clock is not None:
+        clock, told = args.clock, "as told"
+    elif "clock" in times:
+        clock, told = 1.0 / times["clock"][0], "by a chain of additions"
+    else:
+        known = re.findall(r"^cpu MHz\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
+        clock = max(map(float, known), default=0.0) / 1000.0
+        told = "of /proc/cpuinfo, which in a virtual machine need not be the core's"
     if not clock > 0.0:
         stop(f"the clock is {clock} GHz, must be > 0; --clock GHZ gives it")
-    return clock, "as told" if args.clock else ("of /proc/cpuinfo, which in a virtual machine need "
-                                                "not be the core's")
+    return clock, told
 
 
 def find_times(args):
@@ -300,19 +348,22 @@ def find_times(args):
 
 def report(args, times):
     """The text that is printed and written."""
-    clock, told = find_clock(args)
+    clock, told = find_clock(args, times)
+    core = this_core()
+    bound = (f"Bound: the largest of the cycles, of a {core.name} core; ratio: time to bound; both "
+             "are of the clock." if core else "No bounds: this core's numbers are not known here.")
     functions = output("objdump", "-d", "-C", "-M", "intel", "--no-show-raw-insn",
                        args.program).split("\n\n")
-    names = times or {f"{dims}/{composition}/{isa}" for dims in ("2D", "3D")
-                      for composition in COMPOSITIONS for isa in SETS} - {
-                          f"2D/twisting/{isa}" for isa in SETS}
+    names = set(times) - {"clock"} or {
+        f"{dims}/{composition}/{isa}" for dims in ("2D", "3D") for composition in COMPOSITIONS
+        for isa in SETS} - {f"2D/twisting/{isa}" for isa in SETS}
     names = sorted(names, key=lambda name: [ORDER.index(word) for word in name.split("/")])
     table = prose(f"""{processor()}, one core; clock {clock:.2f} GHz, {told}. Counts of the loop
         over complete groups of contacts of one kind, by bench/roofline.py; 512, 256, 128:
-        arithmetic by bits of the registers. Bound: the largest of the cycles; ratio: time to bound;
-        both are of the clock. cv: coefficient of variation of nine runs.""") + [""]
+        arithmetic by bits of the registers. {bound} cv: coefficient of variation of nine
+        runs.""") + [""]
     try:
-        table += HEAD + [line(name, functions, times, clock) for name in names]
+        table += HEAD + [line(name, functions, times, core, clock) for name in names]
     except ValueError as error:
         stop(f"{args.program}: {error}")
     return "\n".join(table) + "\n"
