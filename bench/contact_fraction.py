@@ -36,7 +36,7 @@ def arguments():
     parser = argparse.ArgumentParser(description="What multiple rates gain, by the share in contact.")
     parser.add_argument("--quick", action="store_true", help="two early times, one short round")
     parser.add_argument("--times", type=float, nargs="+",
-                        help="of the states to go on from [L/U] (default 0.2 0.5 1 2 4 10 30 90)")
+                        help="of the states to go on from [L/U] (default 0.2 0.5 1 2 4 10 30)")
     parser.add_argument("--length", type=float, help="of what is timed [L/U] (default 0.5)")
     parser.add_argument("--rounds", type=int, help="runs of each from each state (default 3)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (default 1)")
@@ -48,7 +48,7 @@ def arguments():
     parser.add_argument("--results", type=Path, default=HERE / "results",
                         help="folder for table and plot (default results, beside this)")
     args = parser.parse_args()
-    for name, short, full in (("times", [0.2, 0.5], [0.2, 0.5, 1.0, 2.0, 4.0, 10.0, 30.0, 90.0]),
+    for name, short, full in (("times", [0.2, 0.5], [0.2, 0.5, 1.0, 2.0, 4.0, 10.0, 30.0]),
                               ("length", 0.1, 0.5), ("rounds", 1, 3)):
         if getattr(args, name) is None:
             setattr(args, name, short if args.quick else full)
