@@ -132,9 +132,21 @@ def table(args, found):
 
 
 def draw(args, found, path):
-    """Shares and times over phi."""
-    figure, (shares, times) = plt.subplots(1, 2, figsize=(11, 4.6))
+    """Shares, differences and times over phi."""
+    figure, (shares, apart, times) = plt.subplots(1, 3, figsize=(15, 4.6))
     phi = [float(word) for word in found]
+    for k, (q, words) in enumerate((("in agg.", "in aggregates"), ("number", "number of aggregates"),
+                                    ("size", "their mean size"), ("wall", "in aggregates on walls"))):
+        values = [100 * (np.array([r[q] for r in runs["mts"]]) / [r[q] for r in runs["single rate"]] - 1)
+                  for runs in found.values()]
+        apart.errorbar(np.array(phi) * 1.09**(k - 1.5), [v.mean() for v in values],
+                       [2 * spread(v) / np.sqrt(len(v)) for v in values], marker="osD^"[k], linestyle="none",
+                       capsize=3, color=("#0072B2", "#E69F00", "#009E73", "#CC79A7")[k], label=words)
+    for limit in (-1, 1):
+        apart.axhline(limit, color="firebrick", linestyle=":", label="wanted: 1 %" if limit > 0 else None)
+    apart.axhline(0, color="0.6", linewidth=0.8)
+    apart.set(title="mts less single rate, same seeds;\nbars: two standard errors", ylabel="difference [%]",
+              ylim=(-1.6, 2.6))
     for name, colour in COLOURS.items():
         for q, marker, words in (("in agg.", "o", "in aggregates"), ("wall", "s", "in aggregates on walls")):
             values = [scaled(q, [r[q] for r in runs[name]]) for runs in found.values()]
@@ -146,11 +158,11 @@ def draw(args, found, path):
         middles = [np.median(v) for v in values]
         around = [[m - min(v) for m, v in zip(middles, values)], [max(v) - m for m, v in zip(middles, values)]]
         times.errorbar(phi, middles, around, marker="o", color=colour, capsize=4, label=name)
-    shares.set(title=f"4/5 to all of t = {args.time:g} L/U; bars: standard deviation over seeds",
+    shares.set(title=f"means from 4/5 of t = {args.time:g} L/U on;\nbars: standard deviation over seeds",
                ylabel="share of all particles [%]", ylim=(0, 100))
-    times.set(title=f"to t = {args.time:g} L/U, {args.ranks} ranks; bars: smallest and largest",
+    times.set(title=f"to t = {args.time:g} L/U, {args.ranks} ranks;\nbars: smallest and largest",
               ylabel="wall-clock time [s]", yscale="log")
-    for axis in (shares, times):
+    for axis in (shares, apart, times):
         axis.set(xlabel=r"$\phi = \gamma/(\rho_p U^2 r)$", xscale="log")
         axis.set_xticks(phi, [f"{p:g}" for p in phi])
         axis.xaxis.set_minor_locator(NullLocator())

@@ -13,6 +13,7 @@ Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
 """
 import sys
 import tempfile
+from itertools import product
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -303,18 +304,24 @@ def draw(rows, path):
         guide(steps, top[0], 0.6 * top[1], order)
     steps.set(title="fluid and particle steps", xlabel="step [L/U]")
 
-    for case, row in rows.items():
-        whole = row["whole"]
-        times.errorbar(whole.middle, row["x"], xerr=[[whole.middle - whole.low], [whole.high - whole.middle]],
-                       marker=markers[case.f2], color=colours.get(case.f1, "0.5") if case.cells else "0.5",
-                       markersize=4 + 1.5 * cells.index(case.cells) if case.cells else 5,
-                       markerfacecolor="none", lw=0.7)
+    # a line through the spacings, finer ones below, and for the parabola through the numbers N
+    lines = [(colours[f1], f2, [c for c in rows if c.cells and (c.f1, c.f2) == (f1, f2)])
+             for f1, f2 in product(f1s, f2s)]
+    lines += [("0.5", f2, [c for c in rows if not c.cells and c.f2 == f2]) for f2 in f2s]
+    for colour, f2, chosen in lines:
+        chosen = sorted(chosen, key=lambda c: rows[c]["x"])
+        if not chosen:
+            continue
+        whole = [rows[c]["whole"] for c in chosen]
+        times.errorbar([w.middle for w in whole], [rows[c]["x"] for c in chosen],
+                       xerr=[[w.middle - w.low for w in whole], [w.high - w.middle for w in whole]],
+                       marker=markers[f2], color=colour, markersize=5, markerfacecolor="none", lw=0.7)
     for f1 in f1s:
-        times.plot([], [], "o", color=colours[f1], markerfacecolor="none", label=f"a frame every {f1:g} L/U")
-    times.plot([], [], "o", color="0.5", markerfacecolor="none", label="parabola, formula")
+        times.plot([], [], "-", color=colours[f1], label=f"a frame every {f1:g} L/U")
+    times.plot([], [], "-", color="0.5", label="parabola, formula; lines through N")
     for f2 in f2s:
         times.plot([], [], markers[f2], color="k", markerfacecolor="none", label=f"particle step {f2:g} d/U")
-    times.set(title=f"larger symbols: finer grids, L/{cells[0]} to L/{cells[-1]}",
+    times.set(title=f"error over time; lines through h = L/{cells[0]} (top) to L/{cells[-1]}",
               xlabel=r"wall-clock time per particle and L/U [$\mu$s]")
     for axis in (space, steps, times):
         axis.set(xscale="log", yscale="log", ylabel="rms error of positions / L")

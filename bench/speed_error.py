@@ -40,7 +40,7 @@ def arguments():
                         help="the channel's times are measured up to this one (default 2)")
     parser.add_argument("--seeds", type=int, help="runs of each channel scheme (default 3)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of the channel (default 1)")
-    parser.add_argument("--impacts", type=int, help="impacts of a scene (default 2000)")
+    parser.add_argument("--impacts", type=int, help="impacts of a scene (default 10000)")
     parser.add_argument("--repeat", type=int, help="rounds in which times are measured (default 3)")
     parser.add_argument("--lmp", default=HERE.parent / "lmp",
                         help="LAMMPS with APF (default ../lmp)")
@@ -49,7 +49,7 @@ def arguments():
     parser.add_argument("--results", type=Path, default=HERE / "results",
                         help="folder for table and plot (default results, beside this)")
     args = parser.parse_args()
-    full, quick = (20.0, 2.0, 3, 2000, 3), (0.5, 0.3, 1, 200, 1)
+    full, quick = (20.0, 2.0, 3, 10000, 3), (0.5, 0.3, 1, 200, 1)
     names = ("time", "clock", "seeds", "impacts", "repeat")
     for name, value in zip(names, quick if args.quick else full):
         if getattr(args, name) is None:

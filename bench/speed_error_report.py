@@ -184,8 +184,11 @@ def draw_impacts_panel(axis, elastic, damped):
                       {"linestyle": ":", "markerfacecolor": "none"})
     axis.plot([], [], "k-", label="elastic: mean |e - exact|, V > 1.2 $V_s$")
     axis.plot([], [], "k:", label="damped, oblique: mean error / V")
-    axis.set(title="impacts", xlabel="wall-clock time [s]", ylabel="mean error [-]", xscale="log",
-             yscale="log")
+    axis.axhline(0.01, color="firebrick", linestyle=":", linewidth=0.9, label="wanted: 0.01")
+    axis.set(title="impacts", xlabel="wall-clock time [s]", ylabel="mean error [-]")
+    decades(axis)
+    axis.yaxis.set_major_formatter("{x:.0e}")
+    axis.yaxis.set_minor_formatter("")
 
 
 def draw_sticking_panel(axis, args, elastic, damped):
