@@ -144,7 +144,7 @@ def trimmed(image):
 
 
 def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False, circle=None):
-    """Pictures of (title, file) in rows, each of this size in inches; `trim` takes white margins off.
+    """Pictures of (title, file) in rows, each of this size in inches, None for none; `trim` takes white margins off.
 
     `circle` is the radius, in pixels, of a grey disc around the middle of each, whose middle square is shown.
     """
@@ -153,7 +153,10 @@ def draw_pictures(pictures, columns, path, size=(3.1, 2.7), trim=False, circle=N
                                 layout="constrained")
     for axis in axes.flat:
         axis.axis("off")
-    for axis, (title, file) in zip(axes.flat, pictures):
+    for axis, picture in zip(axes.flat, pictures):
+        if picture is None:
+            continue
+        title, file = picture
         image = plt.imread(file)
         axis.imshow(trimmed(image) if trim else image)
         if circle:

@@ -99,18 +99,18 @@ def draw_streamlines(grid, path):
 
 
 def draw_layers(runs, layer, path, size, circle=None):
-    """Particles in a layer, of runs side by side, at the report's times or what is next to them (figures 30, 31).
+    """Particles in a layer, a row for each run, at the report's times or a run's end next to them (figures 30, 31).
 
     `circle`: with the fiber in whole pictures, its radius in pixels; without it white margins are taken off.
     """
-    columns = []
+    pictures = []
     for run in runs:
         times, paths = run.pictures(layer)
-        near = {int(np.argmin(abs(np.array(times) - t))) for t in TIMES if times}
-        columns.append([(f"{words(run)}, t = {times[k]:g} L/U", paths[k]) for k in sorted(near, reverse=True)])
-    pictures = [picture for row in zip(*columns) for picture in row]
-    if pictures:
-        draw_pictures(pictures, len(runs), path, size, trim=not circle, circle=circle)
+        near = sorted({int(np.argmin(abs(np.array(times) - t))) for t in TIMES if times})
+        row = [(f"{words(run)}, t = {times[k]:g} L/U", paths[k]) for k in near]
+        pictures += row + [None] * (len(TIMES) - len(row))
+    if any(pictures):
+        draw_pictures(pictures, len(TIMES), path, size, trim=not circle, circle=circle)
 
 
 def draw_dendrites(run, path):
