@@ -116,7 +116,7 @@ def draw_profiles(runs, early, path, marks=(), peak=None, still=None):
     runs = those_with(runs, lambda run: len(run.times), "profile", path.name)
     if not runs:
         return
-    figure, axes = plt.subplots(1, 2, figsize=(10, 3.8), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained")
     for k, run in enumerate(runs):
         for t, line in ((early, "--"), (run.times[-1], "-")):
             c, v = run.profile(t)
@@ -129,10 +129,11 @@ def draw_profiles(runs, early, path, marks=(), peak=None, still=None):
         axes[1].axvspan(still, 1, color="0.9", zorder=0, label="report: at rest")
     axes[1].plot(runs[0].r, 1 - runs[0].r**2, ":", color="0.5", label="fluid")
     axes[0].set(xlabel="r / L", ylabel="c", xlim=(0, 1))
-    axes[0].set(**({"yscale": "log", "ylim": (1e-4, 1)} if peak else {"ylim": (0, 0.1)}))
+    axes[0].set(**({"yscale": "log", "ylim": (1e-4, 1)} if peak else {"ylim": (0, None)}))
     axes[1].set(xlabel="r / L", ylabel="v / U", xlim=(0, 1))
-    axes[0].legend(fontsize=8)
     axes[1].legend(fontsize=8)
+    figure.legend(*axes[0].get_legend_handles_labels(), fontsize=8, frameon=False, ncol=3, loc="lower center")
+    figure.get_layout_engine().set(rect=(0, 0.17, 1, 0.83))
     figure.savefig(path, dpi=150)
 
 
