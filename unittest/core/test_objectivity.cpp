@@ -383,6 +383,7 @@ TEST(Balance, oblique_impacts_keep_linear_and_angular_momentum)
     run(two, 1000);
     expect_near(two.momentum(), P, 1e-12 * scale, "momentum");
     const double turned = std::sqrt(norm2(two.angular_momentum() - L)) / (scale * 8.0e-6);
-    expect_criterion("C12 kernel: angular momentum lost in an oblique impact", turned, 0.0, 1e-12);
+    expect_criterion("C12 kernel: angular momentum lost in one of 100 oblique impacts", turned, 0.0,
+                     1e-12);
   }
 }
