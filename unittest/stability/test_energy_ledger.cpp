@@ -87,8 +87,10 @@ void record_account(const Integrator &integrator, bool modes, int spheres, int s
   snprintf(key, sizeof(key), "ledger|%s|%d|%s|%d|%d|%.3g", integrator.name.c_str(),
            integrator.inner, law.c_str(), spheres, steps, step / report_step * 0.1);
   std::string text;
-  for (const double share : shares) {
-    snprintf(numbers, sizeof(numbers), &share == &shares.back() ? "%.1e" : "%.5f|", share);
+  for (size_t n = 0; n < shares.size(); n++) {
+    const bool last = n + 1 == shares.size();
+    const double share = std::fabs(shares[n]) < 5e-6 && !last ? 0.0 : shares[n];    // no -0
+    snprintf(numbers, sizeof(numbers), last ? "%.1e" : "%.5f|", share);
     text += numbers;
   }
   testing::Test::RecordProperty(key, text);

@@ -1,7 +1,9 @@
 // C11 of the list of hard cases: a doublet and a bent chain of three spheres, with loaded springs,
 // that spin about axes along, across and oblique to a contact, under velocity Verlet, stock r-RESPA
 // and fix nve/sphere/mts. Springs turn with their pair, or they would change their length, make
-// torque out of nothing and take energy.
+// torque out of nothing and take energy. Bodies that are turned by force, with springs that are not
+// at rest, are in the core's test_objectivity.cpp: fix move gives velocities of the end of a step,
+// which are no slip at half of it, as contacts take them.
 
 #include "integrators.h"
 #include "necks.h"
@@ -79,14 +81,11 @@ std::vector<Axis> axes(const Chain &chain)
   return {{"along", n}, {"across", t}, {"oblique", unit(sum(sum(n, t), cross(n, t)))}};
 }
 
-void build_chain(Simulation &sim, const Chain &chain, const std::string &law,
-                 const std::vector<Sphere> &more = {})
+void build_chain(Simulation &sim, const Chain &chain, const std::string &law)
 {
   Scene scene;
   scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + law + "\n";
-  auto spheres = chain.spheres();
-  spheres.insert(spheres.end(), more.begin(), more.end());
-  build(sim, spheres, scene);
+  build(sim, chain.spheres(), scene);
   sim.run("neighbor 1.0 bin\ncompute spin all erotate/sphere\n"
           "compute parts all pair granular/adhesive\n"
           "thermo_style custom step pe ke c_spin c_parts[2] c_parts[3] c_parts[4]\n"
@@ -156,39 +155,6 @@ double difference_of(const Vector &a, const Vector &b)
   return std::sqrt(dot(d, d) / dot(b, b));
 }
 
-// Turned by fix move, with springs that are not at rest: they keep their length. Fix
-// nve/sphere/mts refuses fix move, which knows no collision steps.
-TEST(Spin, springs_of_a_body_that_is_turned_keep_their_length)
-{
-  for (const auto &chain : chains)
-    for (const auto &axis : axes(chain))
-      for (const auto &integrator : {integrators[0], integrators[1]}) {
-        const double period = 0.125;
-        Simulation sim;
-        build_chain(sim, chain, undamped, {{1.0, 1.0, 1.0}});
-        preload(sim, chain);
-        const std::string flies = std::to_string(chain.x.size() + 1);
-        std::string commands = integrator.commands(dt);
-        commands.replace(commands.find(" all "), 5, " flies ");
-        sim.run("group flies id " + flies + "\ngroup chain subtract all flies\n" + commands +
-                "fix turn chain move rotate 4 4 4 " + digits(axis.e[0]) + " " + digits(axis.e[1]) +
-                " " + digits(axis.e[2]) + " " + digits(period) + " units box");
-        set_motion(sim, static_cast<int>(chain.x.size()) + 1, {30.0, 10.0, 5.0}, {0.0, 0.0, 0.0});
-        sim.run(integrator.run(64));
-        const auto before = springs(sim);
-        EXPECT_EQ(before.size(), 3 * chain.x.size() - 3);
-        EXPECT_GT(*std::min_element(before.begin(), before.end()), 1e-3) << "all are loaded";
-        double most = 0.0;
-        for (int n = 0; n < 10; n++) {
-          sim.run(integrator.run(static_cast<int>(period / dt)));
-          most = std::max(most, change(springs(sim), before));
-        }
-        expect_criterion(integrator.of("C11 *: change of |xi| in 10 turns, " + chain.name +
-                                       " that is turned " + axis.name),
-                         most, 0.0, 1e-6);
-      }
-}
-
 // The limit of 1e-5 for energy is that of the list, 1e-6 in a turn. Loaded springs swing. The spin
 // W about the normal turns a spring by the angle of a step, but the slide of the step not by half
 // of it, so that of the two circular swings of an undamped spring one gains energy and the other
@@ -251,7 +217,7 @@ TEST(Spin, springs_that_bear_the_load_of_the_spin_keep_their_length)
       preload(sim, chain);
       turn(sim, chain, scaled(W, axis));
       const int outer = steps / integrator.inner;
-      sim.run(integrator.commands(dt) + "run " + std::to_string(3 * outer));
+      sim.run(integrator.commands(dt) + "run " + std::to_string(8 * outer));
       const auto before = springs(sim);
       EXPECT_GT(before[0], 1.0) << "sliding";
       EXPECT_GT(before[1], 1.0) << "rolling";
