@@ -77,11 +77,19 @@ template <class Frame> struct ContactOutput {
   typename Frame::Spin rolling{};
 };
 
+struct ContactTimes {
+  double
+      advance;    // since the last call: histories grow by it; 0 evaluates only            [time]
+  double
+      behind;     // by which the velocities are older than the positions                    [time]
+  double step;    // between calls, which limits dashpots; 0 = no limit                      [time]
+};
+
 // How vectors of the contact plane follow the pair through a step.
 template <class Frame> struct Turning {
   using Tangent = typename Frame::Tangent;
-  static APF_INLINE Turning of(const Frame &, const Frame &, const ContactInput<Frame> &, double,
-                               const ContactMemory<Frame> &)
+  static APF_INLINE Turning of(const Frame &, const Frame &, const ContactInput<Frame> &,
+                               const ContactTimes &, const ContactMemory<Frame> &)
   {
     return {};
   }
@@ -94,12 +102,15 @@ template <class Real> struct Turning<SpaceFrame<Real>> {
   using Vector = Vector3<Real>;
   Vector n, from_mid, from_last;    // normal now; its sum with those of mid-step and of last step
   Real per_mid, per_last;           // 1 / (1 + product of the two normals)
-  Real cosine, sine;                // of the mean spin about the normal
+  Real cosine, sine;                // of the mean spin about the normal, since the last step
+  Real since_mid;                   // its angle since mid-step
 
-  // angle: of that spin
-  APF_INLINE Turning(const Vector &n, const Vector &mid, const Vector &last, const Real &angle) :
-      n(n), from_mid(n + mid), from_last(n + last), per_mid(1.0 + dot(n, mid)),
-      per_last(1.0 + dot(n, last))
+  // angle: of that spin since the last step
+  APF_INLINE Turning(const Vector &n, const Vector &mid, const Vector &last, const Real &angle,
+                     const Real &since_mid) :
+      n(n),
+      from_mid(n + mid), from_last(n + last), per_mid(1.0 + dot(n, mid)),
+      per_last(1.0 + dot(n, last)), since_mid(since_mid)
   {
     const Real q = 0.25 * angle * angle;    // Cayley form: a rotation for any angle
     Real inv = 1.0 + q;
@@ -110,15 +121,22 @@ template <class Real> struct Turning<SpaceFrame<Real>> {
   // from the frames of now and of mid-step; the memory gets the present normal
   using Frame = SpaceFrame<Real>;
   static APF_INLINE Turning of(const Frame &now, const Frame &mid, const ContactInput<Frame> &in,
-                               double advance, ContactMemory<Frame> &memory)
+                               const ContactTimes &times, ContactMemory<Frame> &memory)
   {
     // no normal in the contact's first step
     const auto last = select(norm2(memory.normal) < 0.5, now.n, memory.normal);
     memory.normal = now.n;
-    return {now.n, mid.n, last, 0.5 * advance * dot(in.spin_i + in.spin_j, now.n)};
+    const Real spin = 0.5 * dot(in.spin_i + in.spin_j, now.n);
+    return {now.n, mid.n, last, times.advance * spin, times.behind * spin};
   }
-  // a slip velocity of mid-step, by the smallest rotation to the present normal
-  APF_INLINE Vector slip(const Vector &t) const { return t - (dot(n, t) * per_mid) * from_mid; }
+  // A slip velocity of mid-step: the smallest rotation to the present normal, then that spin since.
+  // 1 + i tan is the root of Cayley's form, so that springs that are turned and stretched in turn
+  // gain no energy.
+  APF_INLINE Vector slip(const Vector &t) const
+  {
+    const Vector tilted = t - (dot(n, t) * per_mid) * from_mid;
+    return tilted + since_mid * cross(n, tilted);
+  }
   // a displacement of the last step: the smallest rotation to the present normal, then the mean
   // spin of the two bodies about it. Exact for finite steps.
   APF_INLINE Vector memory(const Vector &xi) const
@@ -127,14 +145,6 @@ template <class Real> struct Turning<SpaceFrame<Real>> {
     const Vector tangent = tilted - dot(n, tilted) * n;    // rounding only
     return cosine * tangent + sine * cross(n, tangent);
   }
-};
-
-struct ContactTimes {
-  double
-      advance;    // since the last call: histories grow by it; 0 evaluates only            [time]
-  double
-      behind;     // by which the velocities are older than the positions                    [time]
-  double step;    // between calls, which limits dashpots; 0 = no limit                      [time]
 };
 
 // The constant of the normal dashpot. Velocities that are `behind` the positions differ from those
@@ -215,7 +225,7 @@ APF_INLINE ContactOutput<Frame> contact_law(const ConstantsOf<typename Frame::Re
   out.force = (-(elastic + damping)) * frame.n;
   if constexpr (!sliding && !rolling) return out;
 
-  const auto turning = Turning<Frame>::of(frame, mid, in, times.advance, memory);
+  const auto turning = Turning<Frame>::of(frame, mid, in, times, memory);
 
   // levers to the middle of the overlap (at a wall: to the wall): they add up to the distance, so
   // the pair's angular momentum is kept and a rigid rotation slides nothing

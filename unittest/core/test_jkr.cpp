@@ -237,6 +237,23 @@ TEST(JKR, end_of_the_neck_is_finite_and_meets_the_law)
   }
 }
 
+// C18 asks for an error of 1e-3 F_C of a table. There is no table; this is that of the root.
+TEST(JKR, end_of_the_neck_has_the_force_of_a_bisection)
+{
+  for (const Scale &unit : scales) {
+    const ClassicalJKR classical{unit.R, unit.E, 2.0L * unit.gamma};
+    for (double x = 1e-14; x < 100.0; x *= 1.3) {    // distance to the end, of delta_C
+      const double overlap = unit.law().pulloff_overlap() * (x - 1.0);
+      const long double known = classical.force(classical.contact_radius(overlap));
+      expect_criterion(
+          "C18 law: force of the root less that of a bisection, of F_C (no table)",
+          std::fabs(static_cast<double>(unit.law().force(unit.law().root(overlap)) - known)) /
+              unit.F_C() / std::max(1.0, x),
+          0.0, 1e-6);
+    }
+  }
+}
+
 TEST(JKR, beyond_the_neck_the_root_stays_at_its_end)
 {
   for (const Scale &unit : scales)

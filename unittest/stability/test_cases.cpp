@@ -4,6 +4,8 @@
 #include "inlet_scene.h"
 #include "integrators.h"
 
+#include "neighbor.h"
+
 #include <algorithm>
 #include <array>
 
@@ -17,7 +19,7 @@ std::string pair_of(const std::string &law)
   return "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
 }
 
-// C9: a held neck at -0.9 delta_C, lists built at every step; a third sphere flies
+// C9: a held neck at -0.9 delta_C, lists built anew 1e4 times; a third sphere flies
 TEST(Cases, neck_beyond_contact)
 {
   const auto curve = material.pair();
@@ -33,8 +35,9 @@ TEST(Cases, neck_beyond_contact)
             commands + "run 0");
     const double f = gather(sim, "f")[0];
     EXPECT_NEAR(f, -curve.force(-stretch), 1e-6 * curve.F_C());
-    sim.run(integrator.run(10000));
-    expect_criterion(integrator.of("C9 *: change of the force of a neck in 1e4 steps"),
+    sim.run("run 10000");
+    EXPECT_EQ(sim.lammps()->neighbor->ncalls, 10000);
+    expect_criterion(integrator.of("C9 *: change of the force of a neck in 1e4 rebuilds"),
                      std::fabs(gather(sim, "f")[0] / f - 1.0), 0.0, 1e-12);
   }
 }
@@ -292,18 +295,20 @@ void inlet(Simulation &sim, const Integrator &integrator, const std::string &con
 // C25: what enters is the flux, at the speed of the fluid
 TEST(Cases, inlet)
 {
-  const int steps = count(2000, 10000);
-  for (const auto &integrator : integrators) {
-    Simulation sim;
-    const std::string drag = "fix drag all flow/force air drag stokes torque yes\n";
-    inlet(sim, integrator, "0.01", drag + "thermo 100000\n");
-    sim.run("run " + std::to_string(steps));
-    const double due = 0.01 * 100.0 * 0.05 * steps;
-    expect_criterion(integrator.of("C25 *: volume that entered over the flux"),
-                     sim.value("f_in[1]") * entering / due, 0.999, 1.001);
-    expect_criterion(integrator.of("C25 *: kinetic energy over that of the fluid, less 1"),
-                     sim.value("v_more"), -1e-6, 1e-6);
-  }
+  const int steps = 10000;    // one sphere is a part of 3e-4 and less of what enters
+  for (const std::string c : {"0.004", "0.01"})
+    for (const auto &integrator : integrators) {
+      Simulation sim;
+      const std::string drag = "fix drag all flow/force air drag stokes torque yes\n",
+                        at = " at c = " + c;
+      inlet(sim, integrator, c, drag + "thermo 100000\n");
+      sim.run("run " + std::to_string(steps));
+      const double due = std::stod(c) * 100.0 * 0.05 * steps;
+      expect_criterion(integrator.of("C25 *: volume that entered over the flux" + at),
+                       sim.value("f_in[1]") * entering / due, 0.999, 1.001);
+      expect_criterion(integrator.of("C25 *: kinetic energy over that of the fluid, less 1" + at),
+                       sim.value("v_more"), -1e-6, 1e-6);
+    }
 }
 
 // ... and nothing is put where it overlaps another and sets energy free: no drag takes that away,
@@ -388,10 +393,9 @@ TEST(Cases, speed_against_error)
   expect_criterion("C28 mts: mean e over that of the single rate", mean(sub) / mean(single), 0.99,
                    1.01);
   expect_criterion("C28 mts: mean error of e", error(sub), 0.0, 0.01);
-  // time of the processor, which what else the machine does hardly changes; the least that is asked
-  // for is far below what it is
+  // Time of the processor: 3.5 on a quiet machine, 2.8 on one where much else runs
   expect_criterion("C28 mts: time of the single rate over that of sub-steps",
-                   single.time / sub.time, 1.0, 40.0);
+                   single.time / sub.time, 1.5, 7.0);
 }
 
 }    // namespace

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <utility>
 
 namespace {
 
@@ -73,6 +74,28 @@ struct Account {
 };
 const std::string all_modes = "damping tsuji 0.8 sliding 0.3 twisting yes rolling 0.02 0.1";
 
+// The report's collision step, f3 d (rho^2 / (E^2 U))^(1/5) with f3 = 0.1, U as the speeds at the
+// start
+const double report_step = 0.1 * std::pow(std::pow(material.E_eff(), 2.0) * 5.0, -0.2);
+
+// A row of the documentation's table: tools/cases puts together the properties of this name.
+void record_account(const Integrator &integrator, bool modes, int spheres, int steps, double step,
+                    const std::vector<double> &shares)
+{
+  const std::string law = modes ? "all" : "necks alone";
+  char key[128], numbers[16];
+  snprintf(key, sizeof(key), "ledger|%s|%d|%s|%d|%d|%.3g", integrator.name.c_str(),
+           integrator.inner, law.c_str(), spheres, steps, step / report_step * 0.1);
+  std::string text;
+  for (size_t n = 0; n < shares.size(); n++) {
+    const bool last = n + 1 == shares.size();
+    const double share = std::fabs(shares[n]) < 5e-6 && !last ? 0.0 : shares[n];    // no -0
+    snprintf(numbers, sizeof(numbers), last ? "%.1e" : "%.5f|", share);
+    text += numbers;
+  }
+  testing::Test::RecordProperty(key, text);
+}
+
 // What is looked at from outside is seen between particle steps only, the work within one by the
 // trapezoidal rule: as contacts begin at any time between two looks it is right in the mean.
 //   every   particle steps between two looks, shorter than a contact lasts
@@ -126,29 +149,36 @@ Account ledger(const Integrator &integrator, const std::string &modes, int side,
   }
   for (size_t n = 0; n < motion.v.size(); n++) change[n % 3] += motion.v[n];
   for (int c = 0; c < 3; c++) change[c] = std::fabs(change[c] - p0[c]) / size;
-  // energy of necks is counted from where they opened
-  const double elastic = sim.value("c_parts[1]") + 0.846614 * unit * before.size();
+  // Energy of necks is counted from where they opened. Of JKR's that of the surfaces is
+  // -2 gamma pi a^2, the rest is elastic.
+  double adhesive = 0.846614 * unit * before.size();
+  for (const auto &one : contacts) adhesive -= 2.0 * material.gamma * pi * one.p[2] * one.p[2];
+  const double moving = kinetic(motion),
+               elastic = sim.value("c_parts[1]") + 0.846614 * unit * before.size() - adhesive,
+               necks = 0.935503 * unit * broken;
+  double springs = 0.0;
   Powers lost{};
   lost[DAMPING] = -work[DAMPING];
-  for (const int k : {SLIDING, ROLLING, TWISTING})
-    lost[k] = -work[k] - sim.value("c_parts[" + std::to_string(k + 1) + "]");
-  double sum = kinetic(motion) + elastic + 0.935503 * unit * broken;
-  for (const int k : {SLIDING, ROLLING, TWISTING})
-    sum += sim.value("c_parts[" + std::to_string(k + 1) + "]");
+  for (const int k : {SLIDING, ROLLING, TWISTING}) {
+    const double kept = sim.value("c_parts[" + std::to_string(k + 1) + "]");
+    lost[k] = -work[k] - kept;
+    springs += kept;
+  }
+  double sum = moving + elastic + adhesive + springs + necks;
   for (double &one : lost) {
     sum += one;
     one /= E0;
   }
-  printf("C26 %s, N = %d, %d spheres, %d steps: of the energy at the start %.4f kinetic, %.4f "
-         "elastic and adhesive; lost %.4f necks (%.0f), %.4f damping, %.4f sliding, %.4f rolling, "
-         "%.4f twisting; %zu contacts; missing %.3g\n",
-         integrator.name.c_str(), integrator.inner, N, steps, kinetic(motion) / E0, elastic / E0,
-         0.935503 * unit * broken / E0, broken, lost[DAMPING], lost[SLIDING], lost[ROLLING],
-         lost[TWISTING], before.size(), sum / E0 - 1.0);
+  const double missing = sum / E0 - 1.0;
+  record_account(integrator, !modes.empty(), N, steps, step,
+                 {moving / E0, elastic / E0, adhesive / E0, springs / E0, necks / E0, lost[DAMPING],
+                  lost[SLIDING], lost[ROLLING], lost[TWISTING], missing});
+  EXPECT_GT(elastic, 0.0);
+  EXPECT_LT(adhesive, 0.0);
   EXPECT_GT(before.size(), N / 20u);
   if (!modes.empty())
     for (const double one : lost) EXPECT_GT(one, 1e-6) << "each mode takes part";
-  return {std::fabs(sum / E0 - 1.0), *std::max_element(change.begin(), change.end()), lost, broken};
+  return {std::fabs(missing), *std::max_element(change.begin(), change.end()), lost, broken};
 }
 
 std::string words(int side, int steps, const Integrator &integrator)
@@ -206,34 +236,50 @@ TEST(EnergyLedger, elastic_spheres)
   }
 }
 
+// 1e4 under all; 1e5 under velocity Verlet alone, since the quarter of its step that the others
+// need here would take them hours
 TEST(EnergyLedger, many_spheres)
 {
   if (!std::getenv("APF_LONG")) GTEST_SKIP() << "long: tools/cases --long";
   single_rate(22, 100000, 5);
+  for (const auto &one : many_rates) {
+    const std::string what = words(22, 100000, one) + ", omega dt = 0.007";
+    const auto account = ledger(one, all_modes, 22, 100000, 0.125 * dt);
+    expect_criterion(one.of("C26 *: energy missing from the ledger of all modes, " + what),
+                     account.missing, 0.0, 5e-4);
+    expect_criterion(one.of("C27 *: change of momentum, " + what), account.momentum, 0.0, 1e-12);
+  }
   single_rate(46, 100000, 10);
 }
 
-// The report's collision step, f3 d (rho^2 / (E^2 U))^(1/5) with f3 = 0.1, U as the speeds at the
-// start. Contacts themselves meet the criterion there; dashpots and sliders, whose velocities are
-// half a step old, at half of the step. N is small: an impact lasts some 25 of these steps, and
-// what it does is to be seen from outside.
+// At the report's step contacts themselves meet the criterion; dashpots and sliders, whose
+// velocities are half a step old, at half of the step. N is small: an impact lasts some 25 of these
+// steps, and what it does is to be seen from outside.
 TEST(EnergyLedger, at_the_step_of_the_report)
 {
-  const double step = 0.1 * std::pow(std::pow(material.E_eff(), 2.0) * 5.0, -0.2);
   const int steps = count(1500, 100000);
-  const auto missing = [&](int N, const std::string &modes, int finer) {
-    return ledger({"mts", N}, modes, 10, finer * steps, step / finer).missing;
+  const auto missing = [&](const Integrator &by, const std::string &modes, int finer) {
+    return ledger(by, modes, 10, finer * steps, report_step / finer).missing;
   };
-  const auto what = [&](int N, const std::string &modes, int finer) {
-    return "C26 mts: energy missing, " + modes + ", " + std::to_string(finer * steps) +
-        " steps of f3 = " + (finer == 1 ? "0.1" : "0.05") + ", N = " + std::to_string(N);
+  const auto what = [&](const Integrator &by, const std::string &modes, int finer) {
+    return by.of("C26 *: energy missing, " + modes + ", ") + std::to_string(finer * steps) +
+        " steps of f3 = " + (finer == 1 ? "0.1" : "0.05") + ", N = " + std::to_string(by.inner);
   };
-  expect_criterion(what(8, "no damping and friction", 1), missing(8, "", 1), 0.0, 1e-3);
-  const double coarse = missing(1, all_modes, 1), fine = missing(1, all_modes, 2);
-  expect_criterion(what(1, "all modes", 2), fine, 0.0, 1e-3);
-  expect_criterion(what(4, "all modes", 2), missing(4, all_modes, 2), 0.0, 1e-3);
-  expect_criterion("C26 mts: order of the step, all modes, N = 1", std::log2(coarse / fine), 1.0,
-                   4.0);
+  // for necks alone, for all modes
+  const std::pair<Integrator, Integrator> trials[] = {
+      {{"verlet", 1}, {"verlet", 1}}, {{"respa", 8}, {"respa", 2}}, {{"mts", 8}, {"mts", 1}}};
+  for (const auto &[alone, all] : trials) {
+    expect_criterion(what(alone, "no damping and friction", 1), missing(alone, "", 1), 0.0, 1e-3);
+    const double coarse = missing(all, all_modes, 1), fine = missing(all, all_modes, 2);
+    expect_unmet(what(all, "all modes", 1), coarse, 0.0, 1e-3, 5e-3,
+                 "dashpots and sliders have velocities that are half a step old");
+    expect_criterion(what(all, "all modes", 2), fine, 0.0, 1e-3);
+    expect_criterion(all.of("C26 *: what is missing at half the step, of that, all modes, N = ") +
+                         std::to_string(all.inner),
+                     fine / coarse, 0.0, 0.5);
+  }
+  const Integrator four{"mts", 4};
+  expect_criterion(what(four, "all modes", 2), missing(four, all_modes, 2), 0.0, 1e-3);
 }
 
 }    // namespace

@@ -19,14 +19,19 @@
 namespace {
 
 const std::string wall = "fix wall all wall/levelset plane x 0 NULL" + jkr + all_friction + "\n";
+// with an inlet through which no whole sphere comes in any of these tests
 const std::string everything = wall +
     "fix air all flow/field shear x y 1.0 0.0 density 1e-3 viscosity 1e-3\n"
-    "fix drag all flow/force air drag stokes torque yes\n"
+    "fix in all inlet/flow x 4.0 air concentration 1e-6 diameter 1.0 density 1.0 type 1 seed 7\n"
+    "fix c all flow/concentration 8 8 8 cloud 1.0 method direct\n"
+    "fix drag all flow/force air drag stokes torque yes concentration c feedback yes\n"
     "compute clumps all aggregate/contact\n"
-    "thermo_style custom step ke f_wall[7] c_clumps[1] c_clumps[2]\n";
+    "thermo_style custom step ke f_wall[7] f_in[1] f_c[1] f_drag[25] c_clumps[1] c_clumps[2]\n";
 
-// fix nve/sphere and fix nve/sphere/mts
-const std::vector<std::string> integrators = {"fix nve all nve/sphere\n", mts(10)};
+const std::vector<std::string> integrators = {
+    "fix nve all nve/sphere\n", "fix nve all nve/sphere\nrun_style respa 2 10 pair 1\n", mts(10),
+    "fix nve all nve/sphere/mts collision auto\n",
+    "fix nve all nve/sphere/mts collision tolerance 0.01\n"};
 
 Scene beside_a_wall()
 {
@@ -41,8 +46,9 @@ TEST(RanksFaults, no_particles)
     Simulation sim;
     build(sim, {}, beside_a_wall());
     sim.run(everything + integrator + "run 5");
-    EXPECT_EQ(sim.value("f_wall[7]"), 0.0);
-    EXPECT_EQ(sim.value("c_clumps[2]"), 0.0);
+    for (const char *none :
+         {"f_wall[7]", "f_in[1]", "f_c[1]", "f_c[2]", "f_drag[25]", "c_clumps[2]"})
+      EXPECT_EQ(sim.value(none), 0.0) << none << " " << integrator;
   }
 }
 
@@ -55,23 +61,29 @@ TEST(RanksFaults, one_particle)
     build(sim, {{3.0, 4.0, 4.0}}, beside_a_wall());
     sim.run(everything + integrator + "run 10");
     const double t = 10.0 * sim.lammps()->update->dt, tau = pi / 6.0 / (3.0 * pi * 1e-3);
-    EXPECT_NEAR(gather(sim, "v")[0] / (4.0 * -std::expm1(-t / tau)), 1.0, 1e-6);
+    EXPECT_NEAR(gather(sim, "v")[0] / (4.0 * -std::expm1(-t / tau)), 1.0, 1e-6) << integrator;
+    EXPECT_NEAR(sim.value("f_c[1]"), pi / 6.0, 1e-12) << "volume of its cloud";
+    EXPECT_NEAR(sim.value("f_drag[25]/f_drag[1]"), -1.0, 1e-12) << "force on the fluid";
+    EXPECT_EQ(sim.value("f_in[1]"), 0.0);
   }
 }
 
 TEST(RanksFaults, step_of_zero_moves_nothing)
 {
-  for (const std::string integrator :
-       {"fix nve all nve/sphere\n", "fix nve all nve/sphere/mts collision 10\n",
-        "fix nve all nve/sphere/mts collision auto\n"}) {
+  for (const auto &integrator : integrators) {
     Simulation sim;
     build(sim, {{0.495, 4.0, 4.0}, {1.48, 4.1, 4.0}}, beside_a_wall());
     set_motion(sim, 2, {1.0, 2.0, 3.0}, {3.0, 2.0, 1.0});
     sim.run(everything + integrator + "timestep 0.0\nrun 0");
-    const auto before = state_of(sim);
+    auto before = state_of(sim);
+    sim.run("run 1");    // before it r-RESPA shows forces of its outer level alone
+    before.f = gather(sim, "f");
+    before.torque = gather(sim, "torque");
     sim.run("run 5");
     const auto after = state_of(sim);
+    SCOPED_TRACE(integrator);
     expect_same(after, before, 1e-15);
+    EXPECT_EQ(sim.value("f_in[1]"), 0.0);
   }
 }
 

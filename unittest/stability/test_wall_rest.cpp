@@ -20,7 +20,8 @@ const std::string fluid = " density 1e-9 viscosity " + digits(viscosity) + "\n";
 struct Load {
   std::string law, commands;    // of the contact; v_share of the limit
   double limit;                 // force or torque that the contact can bear
-  std::string bears;            // the output that tells what it bears, > 0 along the load
+  std::string bears;            // what it bears, by outputs of the wall, > 0 along the load
+  double jump;                  // how much this changes at most in a collision step of reversal
   double inertia;               // what moves beyond the limit
 
   double acceleration_above(double share) const { return (share - 1.0) * limit / inertia; }
@@ -39,15 +40,19 @@ Load rolling(const std::string &damping)
           "variable rate equal v_share*" + digits(limit / moment_of_shear(1.0)) +
               "\nfix air all flow/field shear x z v_rate 0" + fluid +
               "fix load all flow/force air drag stokes torque yes\n",
-          limit, "", inertia + mass * arm * arm};
+          // torque on the wall about the origin, less that of the force at the foot point
+          limit, "(f_wall[5]+x[1]*f_wall[3])", 0.015, inertia + mass * arm * arm};
 }
 // A force at the middle, up to mu |F_e + 2 F_C|; the rolling spring is far from its limit.
 Load sliding()
 {
   const double limit = mu * 2.0 * curve.F_C();
   return {"sliding " + digits(mu) + " rolling 1.0 0.5",
-          "variable F equal v_share*" + digits(limit) + "\nfix load all addforce v_F 0 0\n", limit,
-          "f_wall[1]", mass};
+          "variable F equal v_share*" + digits(limit) + "\nfix load all addforce v_F 0 0\n",
+          limit,
+          "f_wall[1]",
+          0.07,
+          mass};
 }
 // A vortex about the normal at the sphere, up to (2/3) a mu |F_e + 2 F_C|
 Load twisting()
@@ -57,7 +62,10 @@ Load twisting()
           "variable rate equal -v_share*" + digits(limit / (0.5 * pi * viscosity)) +
               "\nfix air all flow/field shear x y v_rate 4" + fluid +
               "fix load all flow/force air drag stokes torque yes\n",
-          limit, "f_wall[6]", inertia};
+          limit,
+          "f_wall[6]",
+          0.025,
+          inertia};
 }
 
 class Loaded {
@@ -179,7 +187,7 @@ const std::string damped = "damping tsuji 0.2 ";
 // 2.
 double jump_at_reversal(Loaded &slips, const Load &load)
 {
-  slips.sim.run("fix log all vector 1 " + load.bears + "\nthermo 1");
+  slips.sim.run("variable bears equal " + load.bears + "\nfix log all vector 1 v_bears\nthermo 1");
   double most = 0.0;
   int seen = 0;
   for (const double share : {0.0, -0.99, 0.5}) {
@@ -232,11 +240,12 @@ void threshold(const std::string &mode, const Load &load)
     EXPECT_GT(speed(), 0.0);
     expect_criterion(c14 + "acceleration at 101 %" + of + " over that of the excess",
                      (speed() - before) / (2000 * dt) / load.acceleration_above(1.01), 0.99, 1.01);
-    if (load.bears.empty()) continue;
     expect_criterion(c14 + "what is borne in slip, over the limit of " + mode + ", less 1",
                      slips.sim.value(load.bears) / load.limit - 1.0, -1e-6, 1e-6);
+    // in a particle step of ten collision steps it changes by up to ten times as much
     expect_criterion(c14 + "largest change of that in a step of reversal, " + mode,
-                     jump_at_reversal(slips, load), 0.0, 0.6);
+                     jump_at_reversal(slips, load), 0.0,
+                     (integrator.inner > 1 ? 6.0 : 1.0) * load.jump);
   }
 }
 

@@ -194,6 +194,14 @@ inline std::vector<Row> table(const Files &files)
     row.outputs = {entries("f_wall", 1, 3), entries("f_wall", 7, 9)};
     row.shift = "4 4 0";
   }
+  {    // the axis of the pipe goes around that of the turn, faster and faster
+    auto &row = add("fix wall/levelset file, move rotate by a variable");
+    row.start = box("f f p") + spheres(pipe) + pair_of(lossy);
+    row.styles = "variable turn equal 5+300*time\nfix wall all wall/levelset file " +
+        files.pipe.path + lossy + " move rotate 4.02 4 0 0 0 v_turn\n";
+    row.outputs = {entries("f_wall", 1, 3), entries("f_wall", 7, 9)};
+    row.shift = "0 0 4";
+  }
   {
     auto &row = add("fix wall/levelset with a film, bridges");
     row.start = box("p p f") + spheres(pile) + pair_of(wet);
@@ -262,6 +270,32 @@ inline std::vector<Row> table(const Files &files)
     row.no_data = "";
     row.begin = 1e-3;
   }
+  {    // the grid is older than the particles in most steps
+    auto &row = add("fix flow/concentration every 6, feedback on a grid of its own");
+    row.start = box("p p p") + crowd();
+    row.styles = "fix air all flow/field uniform 30 9 1 density 0.2 viscosity 0.5\n"
+                 "fix c all flow/concentration 16 16 16 cloud 0.8 every 6 method direct\n"
+                 "fix drag all flow/force air drag difelice concentration c torque yes feedback "
+                 "12 8 10\n";
+    row.integrators.push_back("mts 8 fluid 3");
+    row.outputs = {{"f_c[1]"}, {"f_c[2]"}, entries("f_drag", 1, 3), entries("f_drag", 25, 27)};
+    row.data_pair = pair_of(jkr);
+    row.no_data = "";
+    row.begin = 1e-3;
+  }
+#ifdef APF_FFTW
+  {
+    auto &row = add("fix flow/concentration method fft");
+    row.start = box("p p p") + crowd();
+    row.styles = "fix air all flow/field uniform 30 9 1 density 0.2 viscosity 0.5\n"
+                 "fix c all flow/concentration 16 16 16 cloud 1.4 method fft\n"
+                 "fix drag all flow/force air drag difelice concentration c torque yes\n";
+    row.outputs = {{"f_c[1]"}, {"f_c[2]"}, entries("f_drag", 1, 3)};
+    row.data_pair = pair_of(jkr);
+    row.no_data = "";
+    row.begin = 1e-3;
+  }
+#endif
   for (const std::string how : {"auto", "tolerance 0.01"}) {
     auto &row = add("fix nve/sphere/mts collision " + how);
     row.start = box("p p p") + spheres(aggregate) + pair_of(lossy);

@@ -83,7 +83,7 @@ struct Limits {
 };
 
 struct Perturbation {
-  enum Kind { WHOLE, CUT, PRE_NO, RESTART, DATA };
+  enum Kind { WHOLE, CUT, PRE_NO, RESTART, FEWER, MORE, DATA };
 
   std::string name, more;    // commands before the run
   Kind kind;
@@ -91,7 +91,9 @@ struct Perturbation {
   bool shifted = false;
 
   bool cut() const { return kind != WHOLE; }
-  bool begins() const { return kind == RESTART || kind == DATA; }    // from a file
+  bool begins() const { return cut() && kind != CUT && kind != PRE_NO; }    // from a file
+  // a restart file of all ranks that one of them reads, and of one that all read
+  bool on_others() const { return kind == FEWER || kind == MORE; }
 };
 
 const Limits order = {1e-13, 1e-11}, cut = {1e-14, 1e-12};    // another order of sums
@@ -103,6 +105,8 @@ std::vector<Perturbation> perturbations()
   return {
       {"ranks", "", Perturbation::WHOLE, order},
       {"restart in contact", "", Perturbation::RESTART, cut},
+      {"... on fewer ranks", "", Perturbation::FEWER, order},
+      {"... on more ranks", "", Perturbation::MORE, order},
       {"write_data, read_data", "", Perturbation::DATA, cut},
       {"balance shift", "fix even all balance 7 1.0 shift xyz 5 1.1\n", Perturbation::WHOLE, order},
       {"balance rcb, tiled",
@@ -122,24 +126,20 @@ struct Course {
   int before, after, finer = 1;
 };
 
-// throws all away, reads it from a file, and defines again what files do not have
+// Reads what another run wrote, and defines again what files do not have.
 void read_again(Simulation &sim, const Row &row, const Perturbation &how, const Course &course,
-                MPI_Comm ranks, const std::string &again)
+                const std::string &file, const std::string &again)
 {
-  const bool restart = how.kind == Perturbation::RESTART;
-  const std::string file = scratch_file("matrix");
-  sim.run((restart ? "write_restart " + file : "write_data " + file + " nocoeff") +
-          "\nclear\natom_modify sort 0 0");
-  if (restart)
-    sim.run("read_restart " + file + "\ncomm_modify vel yes");
-  else
+  const bool data = how.kind == Perturbation::DATA;
+  sim.run("atom_modify sort 0 0");
+  if (data)
     sim.run("newton on\nunits lj\natom_style sphere\natom_modify map array\n"
             "comm_modify vel yes\nboundary p p p\nread_data " +
             file + "\nreset_timestep " + std::to_string(course.finer * course.before) + " time " +
             digits(course.before * inner * dt));
-  sim.run((restart ? "" : row.data_pair) + again);
-  MPI_Barrier(ranks);
-  if (TemporaryFile::rank() == 0) std::remove(file.c_str());
+  else
+    sim.run("read_restart " + file + "\ncomm_modify vel yes");
+  sim.run((data ? row.data_pair : "") + again);
 }
 
 Snapshot outcome(const Row &row, const std::string &integrator, const Perturbation &how,
@@ -155,12 +155,32 @@ Snapshot outcome(const Row &row, const std::string &integrator, const Perturbati
   const auto run = [&course](int steps) {
     return "run " + std::to_string(course.finer * steps);
   };
-  Simulation sim({}, ranks);
-  sim.run(row.start + (how.shifted ? "displace_atoms all move " + row.shift + "\n" : "") + go +
-          how.more + run(how.cut() ? course.before : course.before + course.after));
-  if (how.begins()) read_again(sim, row, how, course, ranks, go);
-  if (how.cut()) sim.run(run(course.after) + (how.kind == Perturbation::PRE_NO ? " pre no" : ""));
-  return snapshot(sim, row);
+  auto sim = std::make_unique<Simulation>(std::vector<std::string>(),
+                                          how.kind == Perturbation::MORE ? MPI_COMM_SELF : ranks);
+  sim->run(row.start + (how.shifted ? "displace_atoms all move " + row.shift + "\n" : "") + go +
+           how.more + run(how.cut() ? course.before : course.before + course.after));
+  if (how.begins()) {
+    // where each rank has a run of its own each writes a file, and that of the first is read
+    const std::string file = scratch_file("matrix"),
+                      mine = how.kind == Perturbation::MORE
+        ? file + std::to_string(TemporaryFile::rank())
+        : file;
+    sim->run((how.kind == Perturbation::DATA ? "write_data " + mine + " nocoeff"
+                                             : "write_restart " + mine));
+    if (how.on_others()) {
+      sim.reset();    // one at a time
+      MPI_Barrier(MPI_COMM_WORLD);
+      sim = std::make_unique<Simulation>(std::vector<std::string>(),
+                                         how.kind == Perturbation::FEWER ? MPI_COMM_SELF : ranks);
+    } else {
+      sim->run("clear");
+    }
+    read_again(*sim, row, how, course, how.kind == Perturbation::MORE ? file + "0" : file, go);
+    MPI_Barrier(how.on_others() ? MPI_COMM_WORLD : ranks);
+    if (TemporaryFile::rank() == 0 || mine != file) std::remove(mine.c_str());
+  }
+  if (how.cut()) sim->run(run(course.after) + (how.kind == Perturbation::PRE_NO ? " pre no" : ""));
+  return snapshot(*sim, row);
 }
 
 void record(const Row &row, const Perturbation &how, const std::string &text)
@@ -177,14 +197,16 @@ class Trial {
   Trial(const Row &of, const std::string &by) : row(of), integrator(by) {}
 
   // What a perturbation is measured against: the run on one rank; where it is cut, that on as many
-  // ranks. If forces are taken anew where a run begins, a restart is compared to two runs.
+  // ranks, if all of it is on these. If forces are taken anew where a run begins, a restart is
+  // compared to two runs.
   double deviation_of(const Perturbation &how, const Course &course)
   {
     const auto &plain = row.begin > 0.0 && how.begins() ? two_runs : whole;
     double shift[3] = {};
     if (how.shifted) std::istringstream(row.shift) >> shift[0] >> shift[1] >> shift[2];
-    return deviation(outcome(row, integrator, how, course, MPI_COMM_WORLD),
-                     twin(plain, course, how.cut() ? MPI_COMM_WORLD : MPI_COMM_SELF), shift);
+    return deviation(
+        outcome(row, integrator, how, course, MPI_COMM_WORLD),
+        twin(plain, course, how.cut() && !how.on_others() ? MPI_COMM_WORLD : MPI_COMM_SELF), shift);
   }
 
   void expect_motion()
