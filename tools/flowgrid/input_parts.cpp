@@ -1,5 +1,6 @@
 #include "input_parts.h"
 
+#include "../../src/flow/regular_file.h"
 #include "foam_case.h"
 
 #include <vtkNew.h>
@@ -135,9 +136,8 @@ namespace {
 void check_is_file(const std::string &path)
 {
   std::error_code none;
-  const auto status = fs::status(path, none);
-  if (!fs::exists(status)) stop(path, "does not exist");
-  if (!fs::is_regular_file(status)) stop(path, "is not a regular file");
+  if (!fs::exists(path, none)) stop(path, "does not exist");
+  if (const auto why = apf::why_not_a_file(path); !why.empty()) stop(path, why);
 }
 
 double bytes_of_input(const std::string &path)
