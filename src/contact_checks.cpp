@@ -47,6 +47,13 @@ void check_units(LAMMPS *lmp, const std::string &who)
                   who, units);
 }
 
+void check_direction(LAMMPS *lmp, const std::string &who)
+{
+  const double step = lmp->update->dt;
+  if (!(step >= 0.0))
+    lmp->error->all(FLERR, Error::NOLASTLINE, "{}: timestep must be >= 0, got {}", who, step);
+}
+
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt)
 {
   const double kappa = mode.frequency * dt;
