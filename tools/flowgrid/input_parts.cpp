@@ -33,19 +33,6 @@ namespace {
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
   }
 
-  // Names go on from the folder of the file that holds them. VTK takes those with a slash, or with
-  // a colon as second character, as they are.
-  bool is_below(const std::string &name)
-  {
-    if (std::strchr("/\\~", name[0]) || (name.size() > 1 && name[1] == ':')) return false;
-    for (size_t begin = 0; begin <= name.size();) {
-      const size_t end = std::min(name.find_first_of("/\\", begin), name.size());
-      if (name.compare(begin, end - begin, "..") == 0) return false;
-      begin = end + 1;
-    }
-    return true;
-  }
-
   // Whether VTK would read other files with a file: by the type that is written in it, as VTK does,
   // since its ending may say anything.
   bool may_name_files(const fs::path &path)
@@ -132,6 +119,19 @@ namespace {
   };
 
 }    // namespace
+
+// VTK takes names with a slash, or with a colon as second character, as they are.
+bool is_below(const std::string &name)
+{
+  if (name.empty() || std::strchr("/\\~", name[0]) || (name.size() > 1 && name[1] == ':'))
+    return false;
+  for (size_t begin = 0; begin <= name.size();) {
+    const size_t end = std::min(name.find_first_of("/\\", begin), name.size());
+    if (name.compare(begin, end - begin, "..") == 0) return false;
+    begin = end + 1;
+  }
+  return true;
+}
 
 void check_is_file(const std::string &path)
 {
