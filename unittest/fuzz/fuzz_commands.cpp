@@ -1,8 +1,9 @@
 // Commands of APF with words that nobody should write, each in a child process of its own; it must
 // be refused by a message that says what is wrong, or run two steps that give numbers. Where one
-// word took the place of another, the message must hold it, and the keyword that it belongs to. Crashes,
-// hangs, huge allocations and mute refusals are failures. Particles that fly away from forces that
-// are numbers are counted apart: LAMMPS says that it lost them, which says nothing of the command.
+// word took the place of another, the message must hold it, and the keyword that it belongs to.
+// Crashes, hangs, huge allocations and mute refusals are failures. Particles that fly away from
+// forces that are numbers are counted apart: LAMMPS says that it lost them, which says nothing of
+// the command.
 //
 //   fuzz_commands NUMBER [SEED] [TEXT]    TEXT: only commands with it; prints all messages
 

@@ -104,7 +104,7 @@ TEST(Stability, a_run_is_the_same_however_lists_and_runs_are_cut)
     EXPECT_NEAR(energy(cut) / whole, 1.0, 1e-9) << cut;
 }
 
-// With time backwards a dashpot gives energy. A wall and a fluid without the pair style say so, too.
+// With time backwards a dashpot gives energy. A wall and a fluid without the pair style say so.
 TEST(Stability, time_that_goes_backwards_is_refused)
 {
   const std::string contacts = header(2) + hexagonal_flake(50.0) + dust(50.0),
