@@ -176,7 +176,7 @@ TEST_F(VtkhdfTrust, what_is_not_a_regular_file_is_not_opened)
           } catch (std::runtime_error &error) {
             text = error.what();
           }
-          return write(out, text.data(), text.size()) < 0;
+          return ::write(out, text.data(), text.size()) < 0;
         },
         1, RLIM_INFINITY);
     return ended.death + ended.text;
