@@ -208,7 +208,8 @@ TEST(MaterialFile, error_for_what_is_not_a_regular_file)
   Simulation simulation;
   simulation.run(two_particles(all_units[0], 0.0));
   for (const auto &command :
-       {"pair_coeff * * material ", "fix wall all wall/levelset plane x -7e-6 NULL material "})
+       {"pair_coeff * * material ",
+        "fix wall all wall/levelset cylinder z 0 7e-6 1e-6 outside material "})
     for (const auto &[file, why] : table) {
       const auto ended = fuzz::in_child(
           [&, name = file](int out) {

@@ -119,7 +119,7 @@ TEST(Stability, time_that_goes_backwards_is_refused)
       {contacts + sub_steps + "10\n", pair},
       {contacts + sub_steps + "auto\n", pair},
       {contacts + sub_steps + "tolerance 0.01\n", pair},
-      {alone + "fix floor all wall/levelset plane y -9e-5 NULL jkr 1e7 0.3 0.01\n",
+      {alone + "fix floor all wall/levelset cylinder z 0 -5e-5 1e-5 outside jkr 1e7 0.3 0.01\n",
        "Fix wall/levelset floor"},
       {alone +
            "fix air all flow/field uniform 1 0 0 density 1 viscosity 1e-5\n"
