@@ -78,7 +78,10 @@ int FixInletFlow::parse_number(int iarg, int narg, char **arg)
     random = std::make_unique<RanMars>(lmp, integer(Range::from(1, 900000000)));
   } else if (word == "type") {
     need_value();
-    type = utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ATOM, lmp);
+    // a number, or the name of one by labelmap
+    const bool named = atom->labelmapflag && !utils::is_integer(arg[iarg + 1]);
+    type = named ? utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ATOM, lmp)
+                 : integer(Range::from(1, atom->ntypes));
     if (type < 1 || type > atom->ntypes)
       error->all(FLERR, iarg + 1, "{} type must be from 1 to {}, got {}", command, atom->ntypes,
                  arg[iarg + 1]);

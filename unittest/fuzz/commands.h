@@ -7,6 +7,7 @@
 #include "vtkhdf_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace fuzz {
@@ -70,6 +71,7 @@ struct Command {
   int keep;    // words at the beginning that stay, since others would be another command
   std::string after = {};    // what a right one needs before a run
   bool ours = true;          // else LAMMPS's, whose messages are its own
+  double most = HUGE_VAL;    // a number beyond which LAMMPS itself fails, by too many ghosts
 };
 
 inline const Command commands[] = {
@@ -154,7 +156,7 @@ inline const Command commands[] = {
      4},
     {nve + pair, "fix wall all wall/levelset cylinder z 7 7 0.5 outside jkr 1e6 0.3 10", 4},
     {nve + pair,
-     "fix air all flow/field file flow.vtkhdf density 1.2 viscosity 1.8e-5 loop no outside error "
+     "fix air all flow/field file flow.vtkhdf density 1.2 viscosity 1.8e-5 loop yes outside error "
      "wall plain",
      4},
     {nve + pair + air,
@@ -169,7 +171,8 @@ inline const Command commands[] = {
      "seed 7 outlet x 7.0 outlet -x 0.5",
      4},
     {nve + pair + air,
-     "fix in all inlet/flow x 1.0 air number 2 diameter poly number 0.2 0.5 0.3 0.5 density 2 type "
+     "fix in all inlet/flow x 1.0 air number 2 diameter poly number 2 0.2 0.5 0.3 0.5 density 2 "
+     "type "
      "1 seed 7",
      4},
     {pair, "fix nve all nve/sphere/mts collision auto lookahead no fluid 3", 4},
@@ -179,12 +182,13 @@ inline const Command commands[] = {
      1, "", false},
     {pair + floor_below + "fix nve all nve/sphere/mts collision auto\n", "timestep 1e-5", 1, "",
      false},
-    {nve + pair + floor_below, "neighbor 0.5 bin", 1, "", false},
+    {nve + pair + floor_below, "neighbor 0.5 bin", 1, "", false, 20.0},
     {pair + floor_below + "fix nve all nve/sphere/mts collision 10\n", "neighbor 0.5 bin", 1, "",
-     false},
+     false, 20.0},
     {nve + pair + floor_below, "neigh_modify delay 0 every 1 check yes one 2000 page 100000", 1, "",
-     false},
-    {nve + pair + air + floor_below, "comm_modify vel yes cutoff 2.0 mode single", 1, "", false},
+     false, 1e6},
+    {nve + pair + air + floor_below, "comm_modify vel yes cutoff 2.0 mode single", 1, "", false,
+     20.0},
     {nve + pair + floor_below, "fix_modify floor energy yes virial yes respa 1", 2},
     {nve + pair + air + "fix drag all flow/force air drag stokes\n",
      "fix_modify drag virial no respa 1", 2},
