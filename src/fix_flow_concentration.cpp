@@ -117,8 +117,9 @@ void FixFlowConcentration::set_up(bool keep)
   if (method == Method::FFT && !can_convolve())
     error->all(FLERR, Error::NOLASTLINE,
                "{} {}: method fft needs a cloud of at least {} widths of a cell along each axis, "
-               "{:.4g} for cells of {:.4g}, got {}",
-               command, id, apf::least_convolved, apf::least_convolved * width, width, radius);
+               "{:.4g} for cells of {:.4g} ({} {} {} of them), got {}",
+               command, id, apf::least_convolved, apf::least_convolved * width, width, grid.n[0],
+               grid.n[1], grid.n[2], radius);
   wide = false;
   for (int c = 0; c < domain->dimension; c++)
     if (domain->periodicity[c] && 2.0 * apf::cloud_reach * radius > domain->prd[c]) check_wide(c);

@@ -82,9 +82,6 @@ int FixInletFlow::parse_number(int iarg, int narg, char **arg)
     const bool named = atom->labelmapflag && !utils::is_integer(arg[iarg + 1]);
     type = named ? utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ATOM, lmp)
                  : integer(Range::from(1, atom->ntypes));
-    if (type < 1 || type > atom->ntypes)
-      error->all(FLERR, iarg + 1, "{} type must be from 1 to {}, got {}", command, atom->ntypes,
-                 arg[iarg + 1]);
   } else {
     error->all(FLERR, iarg,
                "{} keyword must be concentration, number, every, diameter, density, type, seed, "

@@ -117,8 +117,9 @@ bool says_what_is_wrong(const std::string &message, const std::string &command)
       reason.erase(at, name.size());
       break;
     }
-  for (const char *fact : {"missing", "does not exist", "out of bounds", "takes no arguments",
-                           "coeffs are not set", "overlap by", "pair style  in"})
+  for (const char *fact :
+       {"missing", "does not exist", "out of bounds", "takes no arguments", "coeffs are not set",
+        "overlap by", "pair style  in", "unknown compute pair keyword"})
     if (reason.find(fact) != std::string::npos) return true;
 
   const auto words = fuzz::split(lower(command));
@@ -175,6 +176,21 @@ std::vector<std::string> keywords_of(const std::string &command, std::size_t at,
   return found;
 }
 
+// A word that is right by itself may make a later one wrong, as a count of those that follow.
+bool blames_a_later_word(const std::string &text, const std::string &command, std::size_t at)
+{
+  const auto words = fuzz::split(lower(command));
+  std::string before;
+  for (const auto &one : fuzz::split(text)) {
+    const auto word = bare(one);
+    if ((before == "got" || before == "keyword") &&
+        std::find(words.begin() + at + 1, words.end(), word) != words.end())
+      return true;
+    before = one;
+  }
+  return false;
+}
+
 // What a refusal of a command that differs from a right one in one word must hold: that word or,
 // if it is in the place of a keyword, this one, which may be what is missing now; and the keyword
 // that it belongs to, or what its values are called. Empty if it does.
@@ -184,7 +200,7 @@ std::string lacks(const std::string &message, const std::string &right, std::siz
   const std::string text = lower(message.substr(0, message.find('\n')));
   const bool is_keyword = keywords().count(lower(change.was)) > 0;
   if (!holds(text, lower(change.is)) && !(is_keyword && holds(text, lower(change.was))))
-    return "the word '" + change.is + "'";
+    return blames_a_later_word(text, right, change.at) ? "" : "the word '" + change.is + "'";
   const auto belongs_to = keywords_of(right, change.at, keep);
   const bool read_by_lammps = right.compare(0, 11, "fix_modify ") == 0;
   if (is_keyword || belongs_to.empty() || read_by_lammps) return {};

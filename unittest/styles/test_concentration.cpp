@@ -259,7 +259,8 @@ TEST(ConcentrationErrors, name_what_is_wrong)
       {"fix c all flow/concentration 25 25 25 cloud 2 method direct", "cloud must be <= 1.25"},
 #ifdef APF_FFTW
       {"fix c all flow/concentration 25 9 9 cloud 1 method fft",
-       "of at least 2.6 widths of a cell along each axis, 2.889 for cells of 1.111, got 1"},
+       "of at least 2.6 widths of a cell along each axis, 2.889 for cells of 1.111 (25 9 9 of "
+       "them), got 1"},
 #endif
       {"fix d all flow/force air drag difelice concentration q", "fix q does not exist"},
       {"fix d all flow/force air drag difelice concentration air", "got flow/field"},
