@@ -216,7 +216,7 @@ TEST(MaterialFile, error_for_what_is_not_a_regular_file)
             const auto text = simulation.error_of(command + name + " glass");
             return write(out, text.data(), text.size()) < 0;
           },
-          1, rlim_t(4) << 30);
+          1, RLIM_INFINITY);
       EXPECT_EQ(ended.death, "") << command << file;
       expect_words(ended.text, {": material file ", fs::path(file).filename(), why});
     }
