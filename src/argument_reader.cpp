@@ -34,8 +34,12 @@ int ArgumentReader::integer(int iarg, const std::string &name, const Range &rang
 double ArgumentReader::in_range(int iarg, const std::string &name, const Range &range,
                                 double largest) const
 {
+  constexpr double smallest = 1.0e-100;    // quotients are finite yet
   const double value = std::strtod(arg[iarg], nullptr);
   if (!range.holds(value)) refuse(iarg, name, range.words());
+  if (value != 0.0 && std::fabs(value) < smallest)
+    refuse(iarg, name,
+           fmt::format("{}at least {} in size", range.holds(0.0) ? "0 or " : "", smallest));
   if (value > largest) refuse(iarg, name, fmt::format("<= {}", largest));
   if (value < -largest) refuse(iarg, name, fmt::format(">= {}", -largest));
   return value;

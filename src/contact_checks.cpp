@@ -32,7 +32,7 @@ void check_overlap(LAMMPS *lmp, const std::string &who, const apf::WetContact &w
             std::pow(ratio / much, 1.5), model.surface.E * std::pow(ratio / much, 1.5), much);
   const std::string message = fmt::format(
       "{}: particles at rest overlap by {:.3g} of the smaller radius; {}", who, ratio, cure);
-  if (ratio > too_much)
+  if (!(ratio <= too_much))
     lmp->error->all(FLERR, Error::NOLASTLINE, "{}; above {} the contact law has no meaning",
                     message, too_much);
   if (lmp->comm->me == 0) lmp->error->warning(FLERR, message);
@@ -45,6 +45,13 @@ void check_units(LAMMPS *lmp, const std::string &who)
     if (units == known) return;
   lmp->error->all(FLERR, Error::NOLASTLINE, "{} requires units lj, si, cgs, micro or nano, got {}",
                   who, units);
+}
+
+void check_direction(LAMMPS *lmp, const std::string &who)
+{
+  const double step = lmp->update->dt;
+  if (!(step >= 0.0))
+    lmp->error->all(FLERR, Error::NOLASTLINE, "{}: timestep must be >= 0, got {}", who, step);
 }
 
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt)

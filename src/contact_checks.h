@@ -22,6 +22,9 @@ void check_overlap(LAMMPS *lmp, const std::string &who, const apf::WetContact &w
 // An error in units where force is not mass times acceleration, or E no pressure.
 void check_units(LAMMPS *lmp, const std::string &who);
 
+// An error where time goes backwards: dashpots and sliders would drive what they damp.
+void check_direction(LAMMPS *lmp, const std::string &who);
+
 // A warning where the step is too large for the stiffest mode, with the step that would do.
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
 

@@ -144,12 +144,13 @@ double parse_wet_gamma(Words &words)
   const double of_wetting = apf::largest_wetting_hamaker(Ai, Aj);
   if (Af > of_wetting * (1.0 + rounding))
     words.refuse(fmt::format("wet_gamma A_f must be in [0, (sqrt(A_i) + sqrt(A_j))^2 = {:.6g}], "
-                             "got {}: a liquid of larger A_f does not wet the bodies",
-                             of_wetting, Af));
+                             "got {} with A_i = {} and A_j = {}: a liquid of larger A_f does not "
+                             "wet the bodies",
+                             of_wetting, Af, Ai, Aj));
   if (share > 1.0 + rounding)
-    words.refuse(fmt::format("wet_gamma x_ratio must be >= {:.6g}, got {}: liquid would raise the "
-                             "surface energy",
-                             x * std::sqrt(share), x));
+    words.refuse(fmt::format("wet_gamma x_ratio must be >= {:.6g}, got {} with A_i = {}, A_j = {} "
+                             "and A_f = {}: liquid would raise the surface energy",
+                             x * std::sqrt(share), x, Ai, Aj, Af));
   return std::min(share, 1.0);
 }
 

@@ -2,6 +2,7 @@
 
 #include "argument_reader.h"
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "given_once.h"
@@ -14,6 +15,7 @@
 #include "flow/di_felice.h"
 #include "flow/particle_slab.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -91,6 +93,12 @@ int FixFlowConcentration::setmask()
 void FixFlowConcentration::init()
 {
   set_up();    // the neighbor skin may have changed
+  if (comm->me == 0 && !warned && radius < 0.25 * widest_cell())
+    error->warning(FLERR,
+                   "{} {}: cloud {} is small for cells that are {:.4g} wide: below a quarter of "
+                   "that a particle counts in the cell where it is, and hardly in any other",
+                   command, id, radius, widest_cell());
+  warned = true;
   if (every) return;
   every = 1;
   for (const auto &fix : modify->get_fix_list()) {
@@ -105,10 +113,13 @@ void FixFlowConcentration::init()
 // keep: what cells have goes to the ranks that they belong to now
 void FixFlowConcentration::set_up(bool keep)
 {
+  const double width = widest_cell();
   if (method == Method::FFT && !can_convolve())
     error->all(FLERR, Error::NOLASTLINE,
-               "{} {}: method fft needs a cloud of at least {} widths of a cell along each axis",
-               command, id, apf::least_convolved);
+               "{} {}: method fft needs a cloud of at least {} widths of a cell along each axis, "
+               "{:.4g} for cells of {:.4g} ({} {} {} of them), got {}",
+               command, id, apf::least_convolved, apf::least_convolved * width, width, grid.n[0],
+               grid.n[1], grid.n[2], radius);
   wide = false;
   for (int c = 0; c < domain->dimension; c++)
     if (domain->periodicity[c] && 2.0 * apf::cloud_reach * radius > domain->prd[c]) check_wide(c);
@@ -143,9 +154,14 @@ void FixFlowConcentration::check_wide(int axis)
 
 bool FixFlowConcentration::can_convolve() const
 {
-  for (int c = 0; c < domain->dimension; c++)
-    if (radius * grid.n[c] < apf::least_convolved * domain->prd[c]) return false;
-  return true;
+  return radius >= apf::least_convolved * widest_cell();
+}
+
+double FixFlowConcentration::widest_cell() const
+{
+  double width = 0.0;
+  for (int c = 0; c < domain->dimension; c++) width = std::max(width, domain->prd[c] / grid.n[c]);
+  return width;
 }
 
 void FixFlowConcentration::reset_grid()

@@ -47,6 +47,7 @@ class FixFlowConcentration : public FixPerGrid {
   bool walled = false;                 // some cells hold no fluid
   bool closed = false;                 // that, or the box is not periodic
   bool wide = false;                   // a cloud overlaps its own periodic images
+  bool warned = false;                 // of a cloud that is small against the cells
   std::unique_ptr<CloudSum> direct;    // both made when they are needed
   std::unique_ptr<CloudConvolution> convolution;
   std::vector<int> members;    // particles whose clouds are to be added
@@ -60,6 +61,7 @@ class FixFlowConcentration : public FixPerGrid {
   CellGrid *grid_of(int which) override { return which ? &direct->grid : &grid; }
   void renew();
   double volume(int i) const;
+  double widest_cell() const;
   bool can_convolve() const;
   bool by_convolution() const;
   void convolve();

@@ -90,7 +90,7 @@ class FixFlowField : public Fix {
   int parse_shear(char **arg);
   void parse_file(int narg, char **arg);
   int parse_property(int iarg, int narg, char **arg);
-  int axis(const char *word, int iarg);
+  int axis(char **arg, int iarg);
   Speed parse_speed(int iarg, char **arg, const char *what);
 
   double time() const;

@@ -60,8 +60,8 @@ int FixFlowField::parse_kind(int narg, char **arg)
 int FixFlowField::parse_channel(char **arg)
 {
   apf::ChannelFlow channel{};
-  channel.flow = axis(arg[4], 4);
-  channel.wall = axis(arg[5], 5);
+  channel.flow = axis(arg, 4);
+  channel.wall = axis(arg, 5);
   if (channel.wall == channel.flow)
     error->all(FLERR, 5, "Fix flow/field channel wall axis must differ from flow axis {}", arg[4]);
   const ArgumentReader reader(lmp, command, arg);
@@ -82,7 +82,7 @@ int FixFlowField::parse_pipe(char **arg)
   if (domain->dimension == 2)
     error->all(FLERR, 3, "Fix flow/field pipe requires a 3d simulation; use channel in 2d");
   apf::PipeFlow pipe{};
-  pipe.flow = axis(arg[4], 4);
+  pipe.flow = axis(arg, 4);
   pipe.across[0] = pipe.flow == 0 ? 1 : 0;
   pipe.across[1] = pipe.flow == 2 ? 1 : 2;
   const ArgumentReader reader(lmp, command, arg);
@@ -110,8 +110,8 @@ int FixFlowField::parse_uniform(char **arg)
 int FixFlowField::parse_shear(char **arg)
 {
   apf::ShearFlow shear{};
-  shear.flow = axis(arg[4], 4);
-  shear.across = axis(arg[5], 5);
+  shear.flow = axis(arg, 4);
+  shear.across = axis(arg, 5);
   if (shear.across == shear.flow)
     error->all(FLERR, 5, "Fix flow/field shear gradient axis must differ from flow axis {}",
                arg[4]);
@@ -148,13 +148,14 @@ void FixFlowField::parse_file(int narg, char **arg)
 
 /* ---------------------------------------------------------------------- */
 
-int FixFlowField::axis(const char *word, int iarg)
+int FixFlowField::axis(char **arg, int iarg)
 {
   const bool planar = domain->dimension == 2;
+  const char *word = arg[iarg];
   if (strcmp(word, "x") == 0) return 0;
   if (strcmp(word, "y") == 0) return 1;
   if (strcmp(word, "z") == 0 && !planar) return 2;
-  error->all(FLERR, iarg, "Fix flow/field axis must be {}, got {}",
+  error->all(FLERR, iarg, "Fix flow/field {} axis must be {}, got {}", arg[3],
              planar ? "x or y in a 2d simulation" : "x, y or z", word);
   return 0;
 }

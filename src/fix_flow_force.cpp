@@ -102,6 +102,7 @@ void FixFlowForce::init()
   field->require(model.detail());
   check_particles();
   check_units(lmp, command);
+  check_direction(lmp, fmt::format("{} {}", command, id));
   if (!concentration_id.empty()) cloud = find_concentration(Error::NOLASTLINE);
   if (feedback) feedback->set_up();
   check_other_fixes();

@@ -69,7 +69,9 @@ void FixFlowForce::parse(int narg, char **arg)
     error->all(FLERR, "Fix flow/force drag difelice requires keyword concentration");
   if (!model.hindered() && concentrated && !feedback)
     error->all(FLERR,
-               "Fix flow/force keyword concentration goes with drag difelice or feedback yes only");
+               "Fix flow/force keyword concentration goes with drag difelice or feedback yes only, "
+               "got drag {}",
+               model.drag == apf::FluidModel::STOKES ? "stokes" : "schiller");
 }
 
 /* ----------------------------------------------------------------------
@@ -161,7 +163,8 @@ int FixFlowForce::parse_feedback(int iarg, int narg, char **arg)
     if (!cloud)
       error->all(FLERR, iarg + 1,
                  "Fix flow/force feedback yes takes the grid of fix flow/concentration: name that "
-                 "with keyword concentration before it, or write feedback NX NY NZ");
+                 "with keyword concentration before it, or write feedback NX NY NZ; got {}",
+                 concentration >= 0.0 ? fmt::format("concentration {}", concentration) : "none");
     feedback = std::make_unique<FlowFeedback>(lmp, this, cloud->cells());
     return iarg + 2;
   }

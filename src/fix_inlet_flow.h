@@ -93,7 +93,7 @@ class FixInletFlow : public Fix {
   int parse_outlet(int iarg, int narg, char **arg);
   int parse_axis(int iarg, char **arg, const char *what, double &direction);
   double positive(int iarg, char **arg, const char *what);
-  void check_order(int iarg, char **arg, double lo, double hi);
+  void check_order(int iarg, char **arg, const char *law, double lo, double hi);
   void check_required() const;
   apf::InletPlane rectangle() const;
   void check_plane() const;

@@ -78,10 +78,10 @@ int FixInletFlow::parse_number(int iarg, int narg, char **arg)
     random = std::make_unique<RanMars>(lmp, integer(Range::from(1, 900000000)));
   } else if (word == "type") {
     need_value();
-    type = utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ATOM, lmp);
-    if (type < 1 || type > atom->ntypes)
-      error->all(FLERR, iarg + 1, "{} type must be from 1 to {}, got {}", command, atom->ntypes,
-                 arg[iarg + 1]);
+    // a number, or the name of one by labelmap
+    const bool named = atom->labelmapflag && !utils::is_integer(arg[iarg + 1]);
+    type = named ? utils::expand_type_int(FLERR, arg[iarg + 1], Atom::ATOM, lmp)
+                 : integer(Range::from(1, atom->ntypes));
   } else {
     error->all(FLERR, iarg,
                "{} keyword must be concentration, number, every, diameter, density, type, seed, "
@@ -139,8 +139,9 @@ int FixInletFlow::parse_diameter(int iarg, int narg, char **arg)
   };
   if (law == "uniform") {
     need(4);
-    const double lo = positive(iarg + 2, arg, "diameter"), hi = positive(iarg + 3, arg, "diameter");
-    check_order(iarg + 3, arg, lo, hi);
+    const double lo = positive(iarg + 2, arg, "diameter uniform LO"),
+                 hi = positive(iarg + 3, arg, "diameter uniform HI");
+    check_order(iarg + 3, arg, "uniform", lo, hi);
     diameters = apf::UniformDiameters{lo, hi};
     return iarg + 4;
   }
@@ -155,25 +156,24 @@ int FixInletFlow::parse_lognormal(int iarg, int narg, char **arg)
 {
   if (iarg + 4 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow diameter lognormal", error);
   apf::LognormalDiameters law{};
-  law.median = positive(iarg + 2, arg, "median diameter");
-  law.gsd = positive(iarg + 3, arg, "geometric deviation");
-  if (!(law.gsd > 1.0))
-    error->all(FLERR, iarg + 3, "{} geometric standard deviation must be > 1, got {}", command,
-               arg[iarg + 3]);
+  law.median = positive(iarg + 2, arg, "diameter lognormal median");
+  const ArgumentReader reader(lmp, command, arg);
+  law.gsd = reader.number(iarg + 3, "diameter lognormal geometric deviation", Range::above(1.0));
   law.lo = law.median / std::pow(law.gsd, 3);
   law.hi = law.median * std::pow(law.gsd, 3);
   diameters = law;
   if (iarg + 4 == narg || !utils::is_double(arg[iarg + 4])) return iarg + 4;
 
   if (iarg + 6 > narg) utils::missing_cmd_args(FLERR, "fix inlet/flow diameter lognormal", error);
-  law.lo = positive(iarg + 4, arg, "diameter");
-  law.hi = positive(iarg + 5, arg, "diameter");
-  check_order(iarg + 5, arg, law.lo, law.hi);
+  law.lo = positive(iarg + 4, arg, "diameter lognormal LO");
+  law.hi = positive(iarg + 5, arg, "diameter lognormal HI");
+  check_order(iarg + 5, arg, "lognormal", law.lo, law.hi);
   if (law.kept() < 0.01)
     error->all(FLERR, iarg + 4,
-               "{} bounds {} and {} must keep at least 1 % of the lognormal distribution, got "
-               "{:.3g} %",
-               command, arg[iarg + 4], arg[iarg + 5], 100.0 * law.kept());
+               "{} diameter bounds {} and {} must keep at least 1 % of the lognormal distribution "
+               "with median {} and deviation {}, got {:.3g} %",
+               command, arg[iarg + 4], arg[iarg + 5], arg[iarg + 2], arg[iarg + 3],
+               100.0 * law.kept());
   diameters = law;
   return iarg + 6;
 }
@@ -191,8 +191,8 @@ int FixInletFlow::parse_list(int iarg, int narg, char **arg)
                command, n, narg - iarg - 4);
   std::vector<double> d, fraction;
   for (int k = 0; k < n; k++) {
-    d.push_back(positive(iarg + 4 + 2 * k, arg, "diameter"));
-    fraction.push_back(positive(iarg + 5 + 2 * k, arg, "fraction"));
+    d.push_back(positive(iarg + 4 + 2 * k, arg, "diameter poly d"));
+    fraction.push_back(positive(iarg + 5 + 2 * k, arg, "diameter poly fraction"));
   }
   diameters = apf::ListedDiameters::of(std::move(d), std::move(fraction), by_volume);
   return iarg + 4 + 2 * n;
@@ -203,10 +203,10 @@ double FixInletFlow::positive(int iarg, char **arg, const char *what)
   return ArgumentReader(lmp, command, arg).number(iarg, what, Range::above(0.0));
 }
 
-void FixInletFlow::check_order(int iarg, char **arg, double lo, double hi)
+void FixInletFlow::check_order(int iarg, char **arg, const char *law, double lo, double hi)
 {
   if (!(lo < hi))
-    error->all(FLERR, iarg, "{} largest diameter must be > smallest {}, got {}", command,
+    error->all(FLERR, iarg, "{} diameter {} HI must be > LO {}, got {}", command, law,
                arg[iarg - 1], arg[iarg]);
 }
 

@@ -36,9 +36,9 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   global_freq = 1;
   extscalar = 1;
   extvector = -1;    // forces and torques are extensive, counts are not to be divided by atoms
-  extlist = new int[size_vector];
-  std::fill_n(extlist, size_vector, 1);
-  std::fill_n(extlist + 6, 4, 0);
+  extensive.assign(size_vector, 1);
+  std::fill_n(extensive.begin() + 6, 4, 0);
+  extlist = extensive.data();
   energy_global_flag = 1;
   virial_global_flag = virial_peratom_flag = 1;
   respa_level_support = 1;
@@ -62,10 +62,7 @@ FixWallLevelset::FixWallLevelset(LAMMPS *lmp, int narg, char **arg) :
   register_with_atoms();
 }
 
-FixWallLevelset::~FixWallLevelset()
-{
-  delete[] extlist;
-}
+FixWallLevelset::~FixWallLevelset() = default;
 
 /* ---------------------------------------------------------------------- */
 
@@ -115,6 +112,7 @@ void FixWallLevelset::init()
 {
   FixContacts::init();
   check_units(lmp, command);
+  check_direction(lmp, fmt::format("{} {}", command, id));
   motion.init();
   ledger.init(fmt::format("{} {}", command, id));
   aggregates = ComputeAggregateContact::of_all(lmp, force->pair);

@@ -112,6 +112,7 @@ class FixWallLevelset : public FixContacts {
   double captured = 0.0, detached = 0.0;            // contacts begun and ended, of this rank
   WallLedger ledger{lmp, surfaces, motion.pose};    // force and torque on zones of the wall
   static constexpr int n_loads = 12, n_bridge_loads = 7;
+  std::vector<int> extensive;        // extlist
   double all_loads[n_loads] = {};    // the same over all ranks, contacts, begun, ended, bridges,
                                      // liquid
   double all_bridge_loads[n_bridge_loads] = {};    // capillary, viscous, energy

@@ -1,8 +1,11 @@
 #include "material_file.h"
 
+#include "flow/regular_file.h"
+
 #include "comm.h"
 #include "fmt/format.h"
 #include "lammps.h"
+#include "platform.h"
 #include "text_file_reader.h"
 #include "tokenizer.h"
 #include "update.h"
@@ -13,8 +16,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <unordered_map>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -38,10 +43,11 @@ namespace {
   constexpr Units known_units[] = {
       {"si", 1.0, 1.0}, {"cgs", 10.0, 1.0e3}, {"micro", 1.0e-3, 1.0e3}, {"nano", 1.0e-6, 1.0e3}};
 
+  constexpr std::uintmax_t most_bytes = 1000000;    // of a file, some ten thousand materials
+
   struct Entry {
     std::string name;
     Material material;
-    int line;
   };
 
   // What is wrong, and which of the words FILE NAME is to blame. Thrown on rank 0 only and turned
@@ -85,20 +91,31 @@ namespace {
     if (material.gamma < 0.0)
       throw Fault(
           fmt::format("{}: surface energy gamma must be >= 0 J/m^2, got {}", place, words[3]));
-    return {words[0], material, line};
+    return {words[0], material};
   }
 
+  // Where LAMMPS looks for potentials. get_potential_file_path() would open whatever is there.
   std::string find_file(const std::string &file)
   {
-    std::string path = utils::get_potential_file_path(file);
-    if (path.empty()) {
-      const char *folders = getenv("LAMMPS_POTENTIALS");
-      throw Fault(
-          fmt::format("cannot read material file {}: it is neither in the current folder nor "
-                      "in LAMMPS_POTENTIALS ({})",
-                      file, folders ? folders : "not set"));
+    std::vector<std::string> places = {file};
+    const std::string name = platform::path_basename(file);
+    for (const auto &folder : platform::list_pathenv("LAMMPS_POTENTIALS"))
+      if (!name.empty()) places.push_back(platform::path_join(folder, name));
+    for (const auto &path : places) {
+      const std::string why = why_not_a_file(path);
+      if (!why.empty()) throw Fault(fmt::format("material file {} {}", path, why));
+      if (!platform::file_is_readable(path)) continue;
+      std::error_code none;
+      const auto bytes = std::filesystem::file_size(path, none);
+      if (!none && bytes > most_bytes)
+        throw Fault(fmt::format("material file {} must be at most {} bytes long, got {}", path,
+                                most_bytes, bytes));
+      return path;
     }
-    return path;
+    const char *folders = getenv("LAMMPS_POTENTIALS");
+    throw Fault(fmt::format("cannot read material file {}: it is neither in the current folder nor "
+                            "in LAMMPS_POTENTIALS ({})",
+                            file, folders ? folders : "not set"));
   }
 
   // PotentialFileReader is not used: it converts between metal and real only, refuses all other
@@ -111,6 +128,7 @@ namespace {
                               units.empty() ? "no UNITS" : "UNITS: " + units));
 
     std::vector<Entry> entries;
+    std::unordered_map<std::string, int> lines;    // of names
     std::ifstream input(path);
     std::string text;
     for (int line = 1; std::getline(input, text); line++) {
@@ -118,10 +136,10 @@ namespace {
       if (words.empty()) continue;
 
       const Entry entry = parse(words, line, path);
-      for (const auto &other : entries)
-        if (other.name == entry.name)
-          throw Fault(fmt::format("material file {} line {}: material {} is already in line {}",
-                                  path, line, entry.name, other.line));
+      const auto [before, is_new] = lines.emplace(entry.name, line);
+      if (!is_new)
+        throw Fault(fmt::format("material file {} line {}: material {} is already in line {}", path,
+                                line, entry.name, before->second));
       entries.push_back(entry);
     }
     return entries;

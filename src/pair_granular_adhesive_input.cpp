@@ -101,6 +101,7 @@ void PairGranularAdhesive::init_style()
                  force->special_lj[n]);
 
   check_units(lmp, "Pair granular/adhesive");
+  check_direction(lmp, "Pair granular/adhesive");
   neighbor->add_request(this, NeighConst::REQ_SIZE);
 
   find_special_bodies();

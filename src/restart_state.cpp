@@ -56,6 +56,18 @@ size_t RestartState::count()
   return static_cast<size_t>(n);
 }
 
+std::string RestartState::text()
+{
+  const size_t length = count();
+  const double *letters = next(length);
+  std::string words;
+  for (size_t k = 0; k < length; k++) {
+    if (!is_printable(letters[k])) refuse("it is damaged");
+    words += static_cast<char>(letters[k]);
+  }
+  return words;
+}
+
 void RestartState::end()
 {
   if (left) refuse("it is too long");

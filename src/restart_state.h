@@ -27,7 +27,10 @@ class RestartState : protected Pointers {
   double next();
   const double *next(size_t count);
   size_t count();    // the next number, as a count of those that come after it
-  void end();        // all must have been taken by then
+  // a count of characters and these, one a number, to be compared and printed: what is no character
+  // that can be printed is refused
+  std::string text();
+  void end();    // all must have been taken by then
 
  private:
   const Fix *owner;
@@ -36,6 +39,12 @@ class RestartState : protected Pointers {
 
   [[noreturn]] void refuse(const std::string &why);
 };
+
+// of ASCII
+inline bool is_printable(double letter)
+{
+  return letter >= 32.0 && letter <= 126.0;
+}
 
 // Mark of the format in a restart file of this version of APF, 8 bytes.
 struct RestartMark {

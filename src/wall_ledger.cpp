@@ -122,6 +122,18 @@ std::string WallLedger::names() const
   return joined(words);
 }
 
+std::string WallLedger::places() const
+{
+  std::string text = names() + " (surfaces: " + of_surfaces + ")";
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char c) {
+        return !is_printable(c);
+      },
+      '?');
+  return text;
+}
+
 int WallLedger::zone_of(int surface, const double *foot) const
 {
   if (only_zone[surface] >= 0) return only_zone[surface];
@@ -264,9 +276,7 @@ std::vector<double> WallLedger::state() const
 
 void WallLedger::set_state(RestartState &state, const std::string &of_fix)
 {
-  const size_t length = state.count();
-  const double *letters = state.next(length);
-  const std::string saved(letters, letters + length);
+  const std::string saved = state.text();
   if (saved != places())
     error->all(
         FLERR,

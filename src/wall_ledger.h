@@ -118,7 +118,7 @@ class WallLedger : protected Pointers {
 
   void count(std::vector<double> &counts, int zone, Marks others);
   void find_only_zones();
-  std::string places() const { return names() + " (surfaces: " + of_surfaces + ")"; }
+  std::string places() const;    // in characters that can be printed
   void measure_areas();
 };
 

@@ -8,6 +8,7 @@
 #include "update.h"
 #include "variable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -28,8 +29,11 @@ void WallMotion::parse(const char *command_in, int narg, char **arg, int &iarg)
   if (narg < iarg + (rotates ? 6 : 3))
     utils::missing_cmd_args(FLERR, where + (rotates ? " rotate" : " linear"), error);
   if (rotates) {
+    // farther away the last digit of a coordinate about it would be more than 1e-10 of the box
+    const double far = 1e6 * std::max({domain->prd[0], domain->prd[1], domain->prd[2]});
     double x[3];
-    for (double &component : x) component = reader.number(iarg++, "move rotate centre");
+    for (double &component : x)
+      component = reader.number(iarg++, "move rotate centre", Range::from(-far, far));
     pose.set_centre({x[0], x[1], x[2]});
   }
   for (int c = 0; c < 3; c++, iarg++) {

@@ -1,6 +1,7 @@
 #include "vtkhdf_file.h"
 
 #include "hdf5_input.h"
+#include "regular_file.h"
 
 #include <cerrno>
 #include <cmath>
@@ -50,6 +51,7 @@ void VtkhdfFile::close()
 
 void VtkhdfFile::open()
 {
+  if (const std::string why = why_not_a_file(path); !why.empty()) fail(why);
   if (std::FILE *readable = std::fopen(path.c_str(), "rb"))
     std::fclose(readable);
   else

@@ -1,5 +1,6 @@
 #include "input_parts.h"
 
+#include "../../src/flow/regular_file.h"
 #include "foam_case.h"
 
 #include <vtkNew.h>
@@ -30,19 +31,6 @@ namespace {
   bool is_special(const fs::file_status &status)
   {
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-  }
-
-  // Names go on from the folder of the file that holds them. VTK takes those with a slash, or with
-  // a colon as second character, as they are.
-  bool is_below(const std::string &name)
-  {
-    if (std::strchr("/\\~", name[0]) || (name.size() > 1 && name[1] == ':')) return false;
-    for (size_t begin = 0; begin <= name.size();) {
-      const size_t end = std::min(name.find_first_of("/\\", begin), name.size());
-      if (name.compare(begin, end - begin, "..") == 0) return false;
-      begin = end + 1;
-    }
-    return true;
   }
 
   // Whether VTK would read other files with a file: by the type that is written in it, as VTK does,
@@ -132,12 +120,24 @@ namespace {
 
 }    // namespace
 
+// VTK takes names with a slash, or with a colon as second character, as they are.
+bool is_below(const std::string &name)
+{
+  if (name.empty() || std::strchr("/\\~", name[0]) || (name.size() > 1 && name[1] == ':'))
+    return false;
+  for (size_t begin = 0; begin <= name.size();) {
+    const size_t end = std::min(name.find_first_of("/\\", begin), name.size());
+    if (name.compare(begin, end - begin, "..") == 0) return false;
+    begin = end + 1;
+  }
+  return true;
+}
+
 void check_is_file(const std::string &path)
 {
   std::error_code none;
-  const auto status = fs::status(path, none);
-  if (!fs::exists(status)) stop(path, "does not exist");
-  if (!fs::is_regular_file(status)) stop(path, "is not a regular file");
+  if (!fs::exists(path, none)) stop(path, "does not exist");
+  if (const auto why = apf::why_not_a_file(path); !why.empty()) stop(path, why);
 }
 
 double bytes_of_input(const std::string &path)

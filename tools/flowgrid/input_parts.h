@@ -13,6 +13,10 @@ namespace flowgrid {
 // std::runtime_error.
 void check_is_file(const std::string &path);
 
+// Whether a name, which goes on from the folder of the file that holds it, stays in that folder or
+// below.
+bool is_below(const std::string &name);
+
 // Bytes of a file and of those that it names, or of all in the folder of an OpenFOAM case, each
 // file once; INFINITY if they are not known. Throws std::runtime_error for a name that leaves the
 // folder, a file that is a block of itself, and what is not a regular file.

@@ -1,5 +1,7 @@
 #include "vtk_formats.h"
 
+#include "cgns_links.h"
+#include "foam_includes.h"
 #include "input_parts.h"
 #include "plot3d_text.h"
 
@@ -56,6 +58,7 @@ namespace {
 
   vtkSmartPointer<vtkAlgorithm> cgns(const std::string &path)
   {
+    check_cgns_links(path);
     auto reader = vtkSmartPointer<vtkCGNSReader>::New();
     reader->SetFileName(path.c_str());
     reader->UpdateInformation();
@@ -97,6 +100,7 @@ vtkSmartPointer<vtkAlgorithm> reader_of(const std::string &path, const std::stri
 
 vtkSmartPointer<vtkAlgorithm> foam_reader(const std::string &folder)
 {
+  check_includes(folder);
   auto reader = vtkSmartPointer<vtkOpenFOAMReader>::New();
   reader->SetFileName((folder + "/case.foam").c_str());
   reader->CreateCellToPointOff();

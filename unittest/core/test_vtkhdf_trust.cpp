@@ -3,6 +3,7 @@
 // only the rule keeps it from being read.
 
 #include "flow/vtkhdf_file.h"
+#include "fuzz/child.h"
 #include "vtkhdf_writer.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 using apf::VtkhdfFile;
@@ -157,6 +159,34 @@ TEST_F(VtkhdfTrust, steps_that_are_not_there_get_no_memory)
               H5Sclose(scalar);
             }),
             "Steps/Values has no data");
+}
+
+// A pipe to which nobody writes would be waited for, in a child that is ended then.
+TEST_F(VtkhdfTrust, what_is_not_a_regular_file_is_not_opened)
+{
+  const std::string pipe = folder + "/pipe", link = folder + "/link";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_symlink(pipe, link);
+  const auto said = [](const std::string &of) {
+    const auto ended = fuzz::in_child(
+        [&](int out) {
+          std::string text = "read";
+          try {
+            const VtkhdfFile file(of);
+          } catch (std::runtime_error &error) {
+            text = error.what();
+          }
+          return ::write(out, text.data(), text.size()) < 0;
+        },
+        1, RLIM_INFINITY);
+    return ended.death + ended.text;
+  };
+  for (const std::string &one : {pipe, link, std::string("/dev/zero"), std::string("/dev/null")})
+    EXPECT_EQ(said(one), "is not a regular file") << one;
+  EXPECT_EQ(said(folder), "is a folder, not a file");
+  EXPECT_EQ(said(folder + "/none"), "cannot be opened: No such file or directory");
+  std::filesystem::create_symlink(other, folder + "/good");
+  EXPECT_EQ(said(folder + "/good"), "read");
 }
 
 // Names go into messages as they are: nothing in them is a format or a path.

@@ -7,6 +7,7 @@
 #include "vtkhdf_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace fuzz {
@@ -69,6 +70,8 @@ struct Command {
   std::string before, command;
   int keep;    // words at the beginning that stay, since others would be another command
   std::string after = {};    // what a right one needs before a run
+  bool ours = true;          // else LAMMPS's, whose messages are its own
+  double most = HUGE_VAL;    // a number beyond which LAMMPS itself fails, by too many ghosts
 };
 
 inline const Command commands[] = {
@@ -141,11 +144,62 @@ inline const Command commands[] = {
      "fix lid all wall/levelset plane y 0 NULL jkr 1e6 0.3 10 sliding 0.3 move linear 0.1 v_zero "
      "0",
      4},
+    {nve + "pair_style granular/adhesive\n",
+     "pair_coeff * * jkr 1e6 0.3 10 damping none sliding 0.3 twisting no break touch", 1},
+    {nve + "pair_style granular/adhesive\n",
+     "pair_coeff * * jkr 1e6 0.3 10 bridge 0.01 0.072 20 1e-3 form contact capillary maugis "
+     "tangential no inventory 0.5 even",
+     1},
+    {nve + pair + "region part block 0 4 0 8 0 8\n",
+     "fix wall all wall/levelset plane y 0 8 jkr 1e6 0.3 10 break touch zone high hi zone part "
+     "part",
+     4},
+    {nve + pair, "fix wall all wall/levelset cylinder z 7 7 0.5 outside jkr 1e6 0.3 10", 4},
+    {nve + pair,
+     "fix air all flow/field file flow.vtkhdf density 1.2 viscosity 1.8e-5 loop yes outside error "
+     "wall plain",
+     4},
+    {nve + pair + air,
+     "fix drag all flow/force air drag stokes torque no magnus no added_mass no pressure no "
+     "peratom no",
+     4},
+    {nve + pair + air + cloud,
+     "fix drag all flow/force air drag difelice concentration cloud feedback no peratom yes", 4},
+    {nve + pair, "fix cloud all flow/concentration 8 8 8 cloud 0.6 method auto", 4},
+    {nve + pair + air,
+     "fix in all inlet/flow x 1.0 air number 2 every 3 diameter uniform 0.2 0.4 density 2 type 1 "
+     "seed 7 outlet x 7.0 outlet -x 0.5",
+     4},
+    {nve + pair + air,
+     "fix in all inlet/flow x 1.0 air number 2 diameter poly number 2 0.2 0.5 0.3 0.5 density 2 "
+     "type "
+     "1 seed 7",
+     4},
+    {pair, "fix nve all nve/sphere/mts collision auto lookahead no fluid 3", 4},
+    {nve + pair + floor_below, "compute dust all wall/deposit floor zone lo", 3},
     {nve, "pair_style granular/adhesive", 1, "pair_coeff * * jkr 1e6 0.3 10"},
+    {nve + pair + air + floor_below + "fix drag all flow/force air drag stokes\n", "timestep 1e-5",
+     1, "", false},
+    {pair + floor_below + "fix nve all nve/sphere/mts collision auto\n", "timestep 1e-5", 1, "",
+     false},
+    {nve + pair + floor_below, "neighbor 0.5 bin", 1, "", false, 20.0},
+    {pair + floor_below + "fix nve all nve/sphere/mts collision 10\n", "neighbor 0.5 bin", 1, "",
+     false, 20.0},
+    {nve + pair + floor_below, "neigh_modify delay 0 every 1 check yes one 2000 page 100000", 1, "",
+     false, 1e6},
+    {nve + pair + air + floor_below, "comm_modify vel yes cutoff 2.0 mode single", 1, "", false,
+     20.0},
     {nve + pair + floor_below, "fix_modify floor energy yes virial yes respa 1", 2},
     {nve + pair + air + "fix drag all flow/force air drag stokes\n",
      "fix_modify drag virial no respa 1", 2},
 };
+
+// How messages call values that follow a keyword, where they do not repeat it. In lower case.
+struct Called {
+  const char *keyword, *as;
+};
+inline const Called called[] = {
+    {"jkr", "young's modulus"}, {"jkr", "poisson's ratio"}, {"jkr", "surface energy"}};
 
 // lower case; one of them begins every message of APF's own, and says nothing by itself
 inline const char *const names[] = {

@@ -1,7 +1,9 @@
 // Commands of APF with words that nobody should write, each in a child process of its own; it must
-// be refused by a message that says what is wrong, or run two steps that give numbers. Crashes,
-// hangs, huge allocations and mute refusals are failures. Particles that fly away from forces that
-// are numbers are counted apart: LAMMPS says that it lost them, which says nothing of the command.
+// be refused by a message that says what is wrong, or run two steps that give numbers. Where one
+// word took the place of another, the message must hold it, and the keyword that it belongs to.
+// Crashes, hangs, huge allocations and mute refusals are failures. Particles that fly away from
+// forces that are numbers are counted apart: LAMMPS says that it lost them, which says nothing of
+// the command.
 //
 //   fuzz_commands NUMBER [SEED] [TEXT]    TEXT: only commands with it; prints all messages
 
@@ -26,6 +28,8 @@ namespace {
 
 using fuzz::Outcome;
 
+const std::string not_finite = "accepted, and a particle's numbers are not finite";
+
 std::string not_a_number(Simulation &sim)
 {
   const auto *atom = sim.lammps()->atom;
@@ -33,11 +37,11 @@ std::string not_a_number(Simulation &sim)
     for (const double *three :
          {atom->x[i], atom->v[i], atom->f[i], atom->omega[i], atom->torque[i]})
       for (int c = 0; c < 3; c++)
-        if (!std::isfinite(three[c])) return "accepted, and a particle's numbers are not finite";
+        if (!std::isfinite(three[c])) return not_finite;
   return {};
 }
 
-const std::string flew_away = "particles are lost";
+const std::string flew_away = "particles are lost", in_run = "in the run: ";
 
 Outcome outcome_of(Simulation &sim, const std::string &command, const std::string &after)
 {
@@ -46,8 +50,9 @@ Outcome outcome_of(Simulation &sim, const std::string &command, const std::strin
     if (!error.empty()) return {Outcome::REFUSED, error};
     for (const char *run : {"run 0 post no", "run 2 post no"}) {
       error = sim.error_of(run);
-      if (error.find("Lost atoms") != std::string::npos) return {Outcome::ACCEPTED, flew_away};
-      if (!error.empty()) return {Outcome::REFUSED, error};
+      for (const char *flight : {"Lost atoms", "Non-numeric atom coords", "Non-numeric pressure"})
+        if (error.find(flight) != std::string::npos) return {Outcome::ACCEPTED, flew_away};
+      if (!error.empty()) return {Outcome::REFUSED, in_run + error};
       error = not_a_number(sim);
       if (!error.empty()) return {Outcome::FAILED, error};
     }
@@ -92,6 +97,14 @@ const std::set<std::string> &keywords()
   return all;
 }
 
+// A word of a message without the marks around it.
+std::string bare(std::string word)
+{
+  while (!word.empty() && std::strchr("'\":;,()[]", word.back())) word.pop_back();
+  while (!word.empty() && std::strchr("'\"([", word.front())) word.erase(0, 1);
+  return word;
+}
+
 // What is wrong stands behind the name of the style: a word of the command or a keyword, what
 // something must be, that words are missing or something is not there. Words that any sentence may
 // have do not count, unless they are pointed at.
@@ -104,8 +117,9 @@ bool says_what_is_wrong(const std::string &message, const std::string &command)
       reason.erase(at, name.size());
       break;
     }
-  for (const char *fact : {"missing", "does not exist", "out of bounds", "takes no arguments",
-                           "coeffs are not set", "overlap by", "pair style  in"})
+  for (const char *fact :
+       {"missing", "does not exist", "out of bounds", "takes no arguments", "coeffs are not set",
+        "overlap by", "pair style  in", "unknown compute pair keyword"})
     if (reason.find(fact) != std::string::npos) return true;
 
   const auto words = fuzz::split(lower(command));
@@ -116,13 +130,12 @@ bool says_what_is_wrong(const std::string &message, const std::string &command)
   };
   std::string before;    // the word before, with what stands behind it
   for (const auto &whole : fuzz::split(reason)) {
-    std::string word = whole;
-    while (!word.empty() && std::strchr("'\":;,()", word.back())) word.pop_back();
-    while (!word.empty() && std::strchr("'\"(", word.front())) word.erase(0, 1);
+    const std::string word = bare(whole);
     const bool after_a_word = !before.empty() && before != "error:" && before != ":";
     const bool pointed_at = before == "got" || before == "keyword" || before == "style" ||
         whole.front() == '\'' || whole.back() == ':' || (after_a_word && before.back() == ':');
-    if ((named(word) || named(whole)) && (pointed_at || (word.size() > 2 && !common.count(word))))
+    if (whole != "error:" && (named(word) || named(whole)) &&
+        (pointed_at || (word.size() > 2 && !common.count(word))))
       return true;
     if (whole == "''" || (word == "must" && after_a_word)) return true;    // what must be
     before = whole;
@@ -130,7 +143,76 @@ bool says_what_is_wrong(const std::string &message, const std::string &command)
   return false;
 }
 
-// that the rule above can refuse
+// A message holds a word as it is, or as a number that is equal in the digits that are printed.
+bool holds(const std::string &message, const std::string &word)
+{
+  if (bare(word).empty() || (word.size() > 2 && message.find(word) != std::string::npos))
+    return true;
+  char *end;
+  const double value = std::strtod(word.c_str(), &end);
+  const bool is_number = !*end;
+  for (const auto &one : fuzz::split(message)) {
+    const auto printed = bare(one);
+    if (one == word || printed == bare(word)) return true;
+    const double other = std::strtod(printed.c_str(), &end);
+    if (printed.empty() || *end || !is_number) continue;
+    if (other == value || std::fabs(other - value) <= 1e-3 * std::fabs(value)) return true;
+  }
+  return false;
+}
+
+// The keyword that a word of a command belongs to, and the one before, of which this may be a
+// choice: the two nearest. None for what comes before all keywords.
+std::vector<std::string> keywords_of(const std::string &command, std::size_t at, std::size_t keep)
+{
+  const auto words = fuzz::split(command);
+  static const std::set<std::string> values = {"yes", "no", "NULL", "air", "cloud"};
+  std::vector<std::string> found;
+  while (at-- > keep && found.size() < 2)
+    if (words[at].size() > 2 && std::isalpha(static_cast<unsigned char>(words[at][0])) &&
+        !values.count(words[at]) && words[at].compare(0, 2, "v_") != 0 &&
+        words[at].compare(0, 9, "distance_") != 0 && words[at].find('.') == std::string::npos)
+      found.push_back(lower(words[at]));
+  return found;
+}
+
+// A word that is right by itself may make a later one wrong, as a count of those that follow.
+bool blames_a_later_word(const std::string &text, const std::string &command, std::size_t at)
+{
+  const auto words = fuzz::split(lower(command));
+  std::string before;
+  for (const auto &one : fuzz::split(text)) {
+    const auto word = bare(one);
+    if ((before == "got" || before == "keyword") &&
+        std::find(words.begin() + at + 1, words.end(), word) != words.end())
+      return true;
+    before = one;
+  }
+  return false;
+}
+
+// What a refusal of a command that differs from a right one in one word must hold: that word or,
+// if it is in the place of a keyword, this one, which may be what is missing now; and the keyword
+// that it belongs to, or what its values are called. Empty if it does.
+std::string lacks(const std::string &message, const std::string &right, std::size_t keep,
+                  const fuzz::Change &change)
+{
+  const std::string text = lower(message.substr(0, message.find('\n')));
+  const bool is_keyword = keywords().count(lower(change.was)) > 0;
+  if (!holds(text, lower(change.is)) && !(is_keyword && holds(text, lower(change.was))))
+    return blames_a_later_word(text, right, change.at) ? "" : "the word '" + change.is + "'";
+  const auto belongs_to = keywords_of(right, change.at, keep);
+  const bool read_by_lammps = right.compare(0, 11, "fix_modify ") == 0;
+  if (is_keyword || belongs_to.empty() || read_by_lammps) return {};
+  for (const auto &keyword : belongs_to) {
+    if (text.find(keyword) != std::string::npos) return {};
+    for (const auto &value : fuzz::called)
+      if (keyword == value.keyword && text.find(value.as) != std::string::npos) return {};
+  }
+  return "the keyword '" + belongs_to.front() + "'";
+}
+
+// that the rules above can refuse
 void check_rule()
 {
   const std::string command = "fix wall all wall/levelset plane y 0 8 jkr 1e6 0.3 10 sliding -1";
@@ -146,6 +228,30 @@ void check_rule()
         "ERROR: Illegal fix wall/levelset sliding command: missing argument(s) (src/a.cpp:1)",
         "ERROR: Unrecognized fix style 'y' (src/modify.cpp:1)", "ERROR: Unknown keyword: 1e6"})
     fuzz::require(says_what_is_wrong(right, command), right);
+
+  const fuzz::Change sliding = {true, 12, "0.3", "-1"}, E = {true, 8, "1e6", "1e31"},
+                     keyword = {true, 11, "sliding", "rolling"};
+  const std::string good = "fix wall all wall/levelset plane y 0 8 1e6 0.3 10 sliding 0.3";
+  const auto complaint = [&](const std::string &message, const fuzz::Change &change) {
+    return lacks(message, good, 4, change);
+  };
+  for (const char *mute : {"ERROR: Fix wall/levelset sliding mu must be >= 0",
+                           "ERROR: Fix wall/levelset mu must be >= 0, got -1"})
+    fuzz::require(!complaint(mute, sliding).empty(), mute);
+  const char *right = "ERROR: Fix wall/levelset sliding mu must be >= 0, got -1";
+  fuzz::require(complaint(right, sliding).empty(), right);
+  right = "ERROR: Fix wall/levelset plane must be <= 1e+30, got 10000000000000000000000000000000";
+  fuzz::require(complaint(right, E).empty(), right);
+  right = "ERROR: Fix wall/levelset requires keyword sliding";
+  fuzz::require(complaint(right, keyword).empty(), right);
+}
+
+double largest_number(const std::string &command)
+{
+  double largest = 0.0;
+  for (const auto &word : fuzz::split(command))
+    largest = std::max(largest, std::fabs(std::strtod(word.c_str(), nullptr)));
+  return largest;    // what is no number counts by its beginning
 }
 
 // messages that differ in numbers and quoted words only are one
@@ -181,12 +287,22 @@ int main(int argc, char **argv)
     Simulation sim;
     sim.run(fuzz::scene + one.before);
     for (int n = 0; n <= each; n++, tried++) {
-      const std::string command = n ? mutator.mutate(one.command, one.keep) : one.command;
+      fuzz::Change change;
+      const std::string command = n ? mutator.mutate(one.command, one.keep, &change) : one.command;
+      if (largest_number(command) > one.most) continue;
       Outcome outcome = try_command(sim, command, one.after);
       if (n == 0 && (outcome.kind != Outcome::ACCEPTED || !outcome.text.empty()))
         outcome = {Outcome::FAILED, "should be right: " + outcome.text};
-      else if (outcome.kind == Outcome::REFUSED && !says_what_is_wrong(outcome.text, command))
-        outcome = {Outcome::FAILED, "does not say what is wrong: " + outcome.text};
+      else if (outcome.kind == Outcome::REFUSED && one.ours) {
+        if (!says_what_is_wrong(outcome.text, command))
+          outcome = {Outcome::FAILED, "does not say what is wrong: " + outcome.text};
+        else if (change.is_one && outcome.text.compare(0, in_run.size(), in_run) != 0)
+          if (const auto what = lacks(outcome.text, one.command, one.keep, change); !what.empty())
+            outcome = {Outcome::FAILED, "does not hold " + what + ": " + outcome.text};
+      }
+      // LAMMPS takes any step and skin
+      if (!one.ours && outcome.text.compare(0, not_finite.size(), not_finite) == 0)
+        outcome = {Outcome::ACCEPTED, flew_away};
       count[outcome.kind]++;
       lost += outcome.kind == Outcome::ACCEPTED && outcome.text == flew_away;
       if (outcome.kind == Outcome::REFUSED) messages[kind_of(outcome.text)]++;

@@ -29,6 +29,13 @@ inline std::string join(const Words &words)
   return line;
 }
 
+// One word in the place of another one; not one if more was done to the command.
+struct Change {
+  bool is_one = false;
+  std::size_t at = 0;
+  std::string was, is;
+};
+
 class Mutator {
  public:
   // words of right commands are used in others, too
@@ -41,9 +48,10 @@ class Mutator {
   }
 
   // `keep` words at the beginning say which command it is
-  std::string mutate(const std::string &command, std::size_t keep)
+  std::string mutate(const std::string &command, std::size_t keep, Change *change = nullptr)
   {
-    Words words = split(command);
+    const Words right = split(command);
+    Words words = right;
     for (std::size_t n = below(3) ? 1 : 2 + below(2); n > 0; n--) {
       const std::size_t at = keep + below(words.size() - std::min(keep, words.size()) + 1);
       if (at >= words.size()) {
@@ -73,12 +81,28 @@ class Mutator {
           words[at] = any_word();
       }
     }
-    return join(words);
+    const std::string line = join(words);
+    if (change) *change = difference(right, split(line));
+    return line;
   }
 
  private:
   std::mt19937 random;
   Words dictionary;
+
+  static Change difference(const Words &right, const Words &words)
+  {
+    Change change;
+    if (words.size() != right.size()) return change;
+    int changes = 0;
+    for (std::size_t k = 0; k < words.size(); k++) {
+      if (words[k] == right[k]) continue;
+      changes++;
+      change = {true, k, right[k], words[k]};
+    }
+    change.is_one = changes == 1;
+    return change;
+  }
 
   std::size_t below(std::size_t n) { return random() % n; }
 

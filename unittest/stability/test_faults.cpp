@@ -7,6 +7,7 @@
 #include "scenes.h"
 #include "temporary_file.h"
 
+#include <array>
 #include <cctype>
 #include <csignal>
 #include <cstring>
@@ -273,11 +274,18 @@ TEST(RanksFaults, absurd_parameters_are_named)
   Scene scene;
   Simulation sim;
   build(sim, {{4.0, 4.0, 4.0}}, scene);
-  for (const std::string law :
-       {"jkr -1 0.25 1", "jkr 1e6 0.9 1", "jkr 1e6 0.25 -1", "jkr nan 0.25 1",
-        "jkr 1e6 0.25 1 sliding -0.1", "jkr 1e6 0.25 1 damping tsuji 2"})
-    EXPECT_NE(sim.error_of("pair_coeff * * " + law).find("granular/adhesive"), std::string::npos)
-        << law;
+  const std::vector<std::array<std::string, 2>> table = {
+      {"jkr -1 0.25 1", "Young's modulus E must be > 0, got -1"},
+      {"jkr 1e6 0.9 1", "Poisson's ratio nu must be in (-1, 0.5], got 0.9"},
+      {"jkr 1e6 0.25 -1", "surface energy gamma must be >= 0, got -1"},
+      {"jkr nan 0.25 1", "Young's modulus E must be a number > 0, got nan"},
+      {"jkr 1e6 0.25 1 sliding -0.1", "sliding mu must be >= 0, got -0.1"},
+      {"jkr 1e6 0.25 1 damping tsuji 2", "damping tsuji restitution must be in (0, 1], got 2"},
+  };
+  for (const auto &[law, why] : table) {
+    const auto error = sim.error_of("pair_coeff * * " + law);
+    EXPECT_NE(error.find("Pair granular/adhesive " + why), std::string::npos) << law << error;
+  }
 }
 
 // Every style with state marks its part of a restart file with the number of its format and the

@@ -36,6 +36,10 @@ TEST(ArgumentErrors, of_contact_laws)
       "Pair granular/adhesive",
       {{"pair_coeff * * jkr hard 0.3 0", "Young's modulus E must be a number > 0", "hard"},
        {"pair_coeff * * jkr 1e31 0.3 0", "Young's modulus E must be <= 1e+30", "1e31"},
+       {"pair_coeff * * jkr 1e-101 0.3 0", "Young's modulus E must be at least 1e-100 in size",
+        "1e-101"},
+       {"pair_coeff * * jkr 1e6 0.3 1e-101",
+        "surface energy gamma must be 0 or at least 1e-100 in size", "1e-101"},
        {"pair_coeff * * jkr 1e999 0.3 0", "Young's modulus E must be <= 1e+30", "1e999"},
        {law + "rolling 2", "rolling theta_crit must be in [0, 1]", "2"},
        {law + "damping some", "damping must be tsuji, alpha or none", "some"},
@@ -55,7 +59,9 @@ TEST(ArgumentErrors, of_walls)
        {wall + "plane x 0 NULL" + law + "move linear fast 0 0", "move linear must be a number",
         "fast"},
        {wall + "plane x 0 NULL" + law + "move rotate 0 0 here 0 0 1",
-        "move rotate centre must be a number", "here"}});
+        "move rotate centre must be a number in [-10000000, 10000000]", "here"},
+       {wall + "plane x 0 NULL" + law + "move rotate 0 0 1e20 0 0 1",
+        "move rotate centre must be in [-10000000, 10000000]", "1e20"}});
 }
 
 TEST(ArgumentErrors, of_sub_steps)

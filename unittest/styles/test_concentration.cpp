@@ -259,7 +259,8 @@ TEST(ConcentrationErrors, name_what_is_wrong)
       {"fix c all flow/concentration 25 25 25 cloud 2 method direct", "cloud must be <= 1.25"},
 #ifdef APF_FFTW
       {"fix c all flow/concentration 25 9 9 cloud 1 method fft",
-       "of at least 2.6 widths of a cell"},
+       "of at least 2.6 widths of a cell along each axis, 2.889 for cells of 1.111 (25 9 9 of "
+       "them), got 1"},
 #endif
       {"fix d all flow/force air drag difelice concentration q", "fix q does not exist"},
       {"fix d all flow/force air drag difelice concentration air", "got flow/field"},
@@ -272,4 +273,22 @@ TEST(ConcentrationErrors, name_what_is_wrong)
     const auto text = sim.error_of(row[0]);
     EXPECT_NE(text.find(row[1]), std::string::npos) << row[0] << ": " << text;
   }
+}
+
+// Cells of 1. A cloud of 1e-9 is a point in one of them; the volume there is still right.
+TEST(ConcentrationErrors, a_cloud_that_is_small_for_its_cells_gives_a_warning)
+{
+  const auto log = [](const std::string &radius) {
+    Simulation sim;
+    sim.run(one("5.5 5.5 5.5"));
+    auto text = log_of(sim, "fix c all flow/concentration 10 10 10 cloud " + radius + "\nrun 0\n");
+    EXPECT_NEAR(sim.value("f_c[1]") / volume(sim), 1.0, 1e-12);
+    return text;
+  };
+  const std::string warning = "WARNING: Fix flow/concentration c: cloud ";
+  for (const std::string radius : {"1e-09", "0.249"})
+    EXPECT_NE(log(radius).find(warning + radius + " is small for cells that are 1 wide"),
+              std::string::npos)
+        << log(radius);
+  EXPECT_EQ(log("0.251").find(warning), std::string::npos);
 }

@@ -1,6 +1,9 @@
 // fix flow/field file: what is wrong with a file or a box, or was hardly meant, is said.
 
 #include "flow_file.h"
+#include "fuzz/child.h"
+
+#include <sys/stat.h>
 
 TEST(FlowFile, errors_name_what_is_wrong)
 {
@@ -76,6 +79,33 @@ TEST(FlowFile, errors_name_what_is_wrong)
     if (row.word.empty()) continue;    // the word is underlined
     EXPECT_NE(error.find(" " + std::string(row.word.size(), '^')), std::string::npos)
         << row.input << "\ngave: " << error;
+  }
+}
+
+// A pipe to which nobody writes is not waited for.
+TEST(FlowFile, what_is_not_a_regular_file_is_refused)
+{
+  const TemporaryFile pipe("apf_pipe");
+  ASSERT_EQ(mkfifo(pipe.path.c_str(), 0600), 0);
+  Simulation sim;
+  sim.run(spheres);
+  for (const std::string begin : {"fix f all flow/field file ", "fix f all wall/levelset file "}) {
+    const std::string end = begin.find("wall") == std::string::npos ? fluid : " jkr 1e6 0.3 0";
+    const auto said = [&](const std::string &path) {
+      const auto ended = fuzz::in_child(
+          [&](int out) {
+            const auto text = sim.error_of(begin + path + end);
+            return write(out, text.data(), text.size()) < 0;
+          },
+          1, RLIM_INFINITY);
+      return ended.death + ended.text;
+    };
+    for (const std::string &path : {pipe.path, std::string("/dev/zero")})
+      EXPECT_NE(said(path).find(" file " + path + ": is not a regular file"), std::string::npos)
+          << begin << path << ": " << said(path);
+    const auto folder = std::filesystem::temp_directory_path().string();
+    EXPECT_NE(said(folder).find(" file " + folder + ": is a folder, not a file"), std::string::npos)
+        << begin << said(folder);
   }
 }
 

@@ -1,11 +1,14 @@
 // pair_coeff I J material FILE NAME as the user sees it: conversion of units by forces, and errors.
 
+#include "fuzz/child.h"
 #include "simulation.h"
 
 #include "gtest/gtest.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -181,6 +184,43 @@ TEST(MaterialFile, error_names_a_missing_file)
   simulation.run(two_particles(all_units[0], 0.0));
   expect_words(simulation.error_of("pair_coeff 1 1 material no_such.adhesive a"),
                {"Pair granular/adhesive", "no_such.adhesive", "LAMMPS_POTENTIALS"});
+}
+
+// In children that are ended if they wait, or read on and on.
+TEST(MaterialFile, error_for_what_is_not_a_regular_file)
+{
+  namespace fs = std::filesystem;
+  const auto folder =
+      fs::temp_directory_path() / ("apf_material_" + std::to_string(getpid())) / "of_pipes";
+  const auto pipe = folder / "pipe.adhesive", large = folder / "large.adhesive";
+  fs::create_directories(folder);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::ofstream(large) << header + "glass 73e9 0.17 0.025\n";
+  fs::resize_file(large, 1000001);
+  const std::string regular = " is not a regular file";
+  const std::vector<std::array<std::string, 2>> table = {
+      {pipe, regular},
+      {"pipe.adhesive", regular},    // of LAMMPS_POTENTIALS
+      {"/dev/zero", regular},
+      {folder, " is a folder, not a file"},
+      {large, " must be at most 1000000 bytes long, got 1000001"}};
+  setenv("LAMMPS_POTENTIALS", folder.c_str(), 1);
+  Simulation simulation;
+  simulation.run(two_particles(all_units[0], 0.0));
+  for (const auto &command :
+       {"pair_coeff * * material ",
+        "fix wall all wall/levelset cylinder z 0 7e-6 1e-6 outside material "})
+    for (const auto &[file, why] : table) {
+      const auto ended = fuzz::in_child(
+          [&, name = file](int out) {
+            const auto text = simulation.error_of(command + name + " glass");
+            return write(out, text.data(), text.size()) < 0;
+          },
+          1, RLIM_INFINITY);
+      EXPECT_EQ(ended.death, "") << command << file;
+      expect_words(ended.text, {": material file ", fs::path(file).filename(), why});
+    }
+  fs::remove_all(folder.parent_path());
 }
 
 TEST(MaterialFile, error_lists_the_materials_of_the_file)

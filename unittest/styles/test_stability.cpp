@@ -5,8 +5,10 @@
 
 #include "gtest/gtest.h"
 
+#include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -100,6 +102,36 @@ TEST(Stability, a_run_is_the_same_however_lists_and_runs_are_cut)
   for (const char *cut : {"run 1\nrun 199", "run 0\nrun 200", "run 100\nrun 100",
                           "neigh_modify delay 0 every 1 check no\nrun 200"})
     EXPECT_NEAR(energy(cut) / whole, 1.0, 1e-9) << cut;
+}
+
+// With time backwards a dashpot gives energy. A wall and a fluid without the pair style say so.
+TEST(Stability, time_that_goes_backwards_is_refused)
+{
+  const std::string contacts = header(2) + hexagonal_flake(50.0) + dust(50.0),
+                    alone = header(2) + at(0.0, 0.0, 0.0) +
+      "set group all diameter 1e-5 density 2600\npair_style zero 2e-5 nocoeff\npair_coeff * *\n"
+      "fix nve all nve/sphere\n",
+                    step = "timestep -1e-8\nrun 1", pair = "Pair granular/adhesive",
+                    sub_steps = "unfix nve\nfix nve all nve/sphere/mts collision ";
+  const std::vector<std::array<std::string, 2>> table = {
+      {contacts, pair},
+      {contacts + "run_style respa 2 4 pair 1\n", pair},
+      {contacts + sub_steps + "10\n", pair},
+      {contacts + sub_steps + "auto\n", pair},
+      {contacts + sub_steps + "tolerance 0.01\n", pair},
+      {alone + "fix floor all wall/levelset cylinder z 0 -5e-5 1e-5 outside jkr 1e7 0.3 0.01\n",
+       "Fix wall/levelset floor"},
+      {alone +
+           "fix air all flow/field uniform 1 0 0 density 1 viscosity 1e-5\n"
+           "fix drag all flow/force air drag stokes\n",
+       "Fix flow/force drag"}};
+  for (const auto &[scene, who] : table) {
+    Simulation sim;
+    const auto error = sim.error_of(scene + step);
+    EXPECT_NE(error.find(who + ": timestep must be >= 0, got -1e-08"), std::string::npos)
+        << scene << error;
+    EXPECT_EQ(sim.error_of("timestep 0.0\nrun 1"), "");
+  }
 }
 
 TEST(Stability, twelve_contacts_on_a_particle_come_to_rest_at_the_reports_step)

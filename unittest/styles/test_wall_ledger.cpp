@@ -400,4 +400,49 @@ TEST(RanksLedger, restart_goes_on_counting)
   if (int rank = -1; MPI_Comm_rank(MPI_COMM_WORLD, &rank), rank == 0) std::filesystem::remove(file);
 }
 
+// Names of zones stand in the file one letter a number. What is no letter is not printed, whatever
+// it would do to a terminal or to what comes after it; right letters of other names are.
+TEST(Ledger, damaged_names_in_a_restart_file_are_not_printed)
+{
+  const std::string file = scratch_file("names.restart"),
+                    wall = halves + "fix wall all wall/levelset plane z 0 NULL" + jkr +
+      "zone zoneA left\n",
+                    begin = "zone";
+  std::string bytes;
+  {
+    Simulation sim;
+    build(sim, {{1.0, 4.0, 0.7}}, at_wall(wall));
+    sim.run("fix nve all nve/sphere\nrun 0\nwrite_restart " + file);
+    std::ifstream in(file, std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  std::string name;
+  for (const double letter : begin)
+    name.append(reinterpret_cast<const char *>(&letter), sizeof(letter));
+  const size_t at = bytes.find(name);
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_EQ(bytes.find(name, at + 1), std::string::npos);
+  const auto error_with = [&](double letter) {
+    std::string changed = bytes;
+    changed.replace(at + name.size(), sizeof(letter), reinterpret_cast<const char *>(&letter),
+                    sizeof(letter));
+    std::ofstream(file, std::ios::binary) << changed;
+    Simulation sim;
+    return sim.error_of("comm_modify vel yes\nread_restart " + file + "\n" + wall);
+  };
+  EXPECT_EQ(error_with('A'), "");
+  for (const double letter :
+       {0.0, 27.0, 31.0, 127.0, 155.0, 1e300, -1e300, HUGE_VAL, std::nan("")}) {
+    const auto error = error_with(letter);
+    EXPECT_NE(error.find("Fix wall/levelset wall: its part of the restart file cannot be used: it "
+                         "is damaged"),
+              std::string::npos)
+        << letter << error;
+    EXPECT_EQ(error.find(begin), std::string::npos) << letter << error;
+  }
+  EXPECT_NE(error_with('~').find("the zones in the restart file are zone~ rest"),
+            std::string::npos);
+  std::filesystem::remove(file);
+}
+
 }    // namespace

@@ -5,7 +5,10 @@
 
 #include "gtest/gtest.h"
 
+#include <hdf5.h>
+
 #include <fstream>
+#include <functional>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -214,6 +217,107 @@ TEST_F(Trust, what_is_not_a_regular_file)
     expect_refused(flowgrid_with((folder / "case") + words), part, why);
     fs::rename(folder / "part", folder / part);
   }
+}
+
+// The numbers of a field are in another file. Within the case it is read, however it is named; the
+// same file beside the case is not, however the #include is written.
+TEST_F(Trust, files_that_a_case_includes_are_in_its_folder)
+{
+  fs::copy(poiseuille, folder / "case", fs::copy_options::recursive);
+  fs::create_directories(folder / "case/parts");
+  fs::create_directory_symlink(folder / "case/parts", folder / "case/4/link");
+  const std::string field = folder / "case/4/U", refused = "which is not in the folder of the case";
+  std::ifstream in(field);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const size_t begin = text.find("internalField"), end = text.find("boundaryField");
+  ASSERT_LT(begin, end);
+  ASSERT_NE(end, std::string::npos);
+  const std::string numbers = text.substr(begin, end - begin);
+  for (const char *name : {"outside", "case/inside", "case/4/inside", "case/parts/inside"})
+    std::ofstream(folder / name) << numbers;
+  const auto with = [&](const std::string &directive) {
+    std::ofstream(field) << text.substr(0, begin) << directive << '\n' << text.substr(end);
+    return flowgrid_with((folder / "case") + " " + (folder / "out.vtkhdf") +
+                         " --spacing 0.3 --planar 0.05");
+  };
+  for (const std::string name :
+       {std::string("inside"), std::string("./inside"), std::string("../inside"),
+        std::string("../4/inside"), std::string("link/inside"), std::string("$FOAM_CASE/inside"),
+        folder / "case/inside"})
+    EXPECT_EQ(with("#include \"" + name + "\"").status, 0) << name;
+  for (const std::string name :
+       {std::string("../../outside"), std::string("link/../../../outside"), folder / "outside",
+        std::string("$FOAM_CASE/../outside"), std::string("$HOME/outside"),
+        std::string("~/outside"), std::string("$FOAM_CASE//etc/hostname")})
+    expect_refused(with("#include \"" + name + "\""), "case/4/U", refused);
+  for (const std::string directive :
+       {"# include \"../../outside\"", "#/* x */include // y\n\"../../outside\"",
+        "#\"in\\clude\" \"../../outside\"", "#sinclude \"../../outside\"",
+        "#includeIfPresent \"../../outside\"", "#include ../../outside", "#include \"../../none\""})
+    expect_refused(with(directive), "case/4/U", "it is not read");
+  // a compressed file, and one that is included
+  with("#include \"../../outside\"");
+  ASSERT_EQ(std::system(("gzip " + field).c_str()), 0);
+  expect_refused(flowgrid_with((folder / "case") + " " + (folder / "out.vtkhdf") +
+                               " --spacing 0.3 --planar 0.05"),
+                 "case/4/U.gz", refused);
+  fs::remove(field + ".gz");
+  std::ofstream(folder / "case/inside") << "#include \"../outside\"\n";
+  expect_refused(with("#include \"../inside\""), "case/4/../inside", refused);
+  // what begins in one goes on in the other
+  std::ofstream(folder / "case/inside") << "#inc";
+  expect_refused(with("#include \"../inside\"\nlude \"../../outside\""), "case/4/../inside",
+                 "has an #include without a plain name");
+  fs::remove(folder / "case/inside");
+  ASSERT_EQ(mkfifo((folder / "case/inside").c_str(), 0600), 0);
+  expect_refused(with("#include \"../inside\""), "case/4/U", "is not a regular file");
+  // of other files nothing is included
+  std::ofstream(folder / "case/parts/code.C") << "#include \"../../outside\"\n";
+  EXPECT_EQ(with(numbers).status, 0);
+}
+
+// A node of a CGNS file in another one, right in itself, and the numbers of an array.
+TEST_F(Trust, nodes_of_cgns_files_are_in_the_file)
+{
+  const std::string right = folder / "right.cgns", file = folder / "file.cgns",
+                    node = "Base/Zone1/GridCoordinates";
+  ASSERT_EQ(std::system((std::string(FLOWGRID_BLOCKS) + " cgns " + right + " Vertex").c_str()), 0);
+  const auto with = [&](const std::function<void(hid_t)> &change) {
+    fs::copy_file(right, file, fs::copy_options::overwrite_existing);
+    const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    change(id);
+    H5Fclose(id);
+    return flowgrid_with(file + " " + (folder / "out.vtkhdf") + " --spacing 0.3");
+  };
+  EXPECT_EQ(with([](hid_t) {
+            }).status,
+            0);
+  const auto by_link = [&](hid_t id) {
+    ASSERT_GE(H5Ldelete(id, node.c_str(), H5P_DEFAULT), 0);
+    ASSERT_GE(
+        H5Lcreate_external(right.c_str(), node.c_str(), id, node.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        0);
+  };
+  expect_refused(with(by_link), "file.cgns", node + " is a link to another file: it is not read");
+  const auto beside = [&](hid_t id) {
+    const hsize_t one = 1;
+    const hid_t space = H5Screate_simple(1, &one, nullptr), list = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_external(list, right.c_str(), 0, 8);
+    H5Dclose(H5Dcreate2(id, "Base/more", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, list, H5P_DEFAULT));
+    H5Pclose(list);
+    H5Sclose(space);
+  };
+  expect_refused(with(beside), "file.cgns", "Base/more has its numbers in another file");
+
+  std::string adf = "@(#)ADF Database Version B02012>" + std::string(1 << 20, ' ');
+  adf.replace(adf.size() - 300, 4, "NoDe");
+  const auto as_adf = [&](const std::string &type) {
+    adf.replace(adf.size() - 300 + 96, type.size(), type);
+    return run("adf.cgns", adf);
+  };
+  expect_refused(as_adf("LK"), "adf.cgns", "has a node that is a link");
+  expect_refused(as_adf("R8"), "adf.cgns", "");    // by VTK: it is none
+  EXPECT_EQ(as_adf("R8").text.find("has a node that is a link"), std::string::npos);
 }
 
 TEST_F(Trust, a_block_of_itself)
