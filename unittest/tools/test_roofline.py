@@ -63,31 +63,49 @@ class Counts(unittest.TestCase):
         self.assertEqual({key: k for key, k in self.n.items() if k}, expected)
 
     def test_bounds(self):
-        cycles = roofline.bounds(self.n, "avx512")
+        cycles = roofline.GOLDEN_COVE.bounds(self.n, "avx512")
         # 5 arithmetic, 1 shuffle, a root, division and estimate of three; division 16, root 9 cycles
         for what, expected in (("issue", 23 / 6), ("loads", 2.0), ("stores", 2.0), ("ports", 13 / 2), ("divider", 25.0)):
             self.assertAlmostEqual(cycles[what], expected, msg=what)
-        self.assertAlmostEqual(roofline.bounds(self.n, "avx2")["ports"], 13 / 3)
+        self.assertAlmostEqual(roofline.GOLDEN_COVE.bounds(self.n, "avx2")["ports"], 13 / 3)
+
+    def test_bounds_of_another_core(self):
+        cycles = roofline.ZEN_5.bounds(self.n, "avx512")
+        # a root, division and estimate of one micro-operation each; division 4, root 7.5 cycles
+        for what, expected in (("issue", 23 / 8), ("loads", 2.0), ("ports", 9 / 4), ("divider", 11.5)):
+            self.assertAlmostEqual(cycles[what], expected, msg=what)
+
+    def test_core_that_is_not_known_has_no_bound(self):
+        times = {"2D/rolling/avx512": (5.0, 0.02)}
+        row = roofline.line("2D/rolling/avx512", [NAME + LOOP], times, None, 2.5)
+        self.assertEqual(roofline.read_table(row), {"2D/rolling/avx512": (None, 5.0, 0.02)})
+
+    def test_clock_is_that_of_the_chain(self):
+        class Arguments:
+            clock = None
+        self.assertEqual(roofline.find_clock(Arguments, {"clock": (0.25, 0.01)}), (4.0, "by a chain of additions"))
+        Arguments.clock = 3.0
+        self.assertEqual(roofline.find_clock(Arguments, {"clock": (0.25, 0.01)})[0], 3.0)
 
     def test_line_is_per_contact(self):
         times = {"2D/rolling/avx512": (5.0, 0.02)}
-        words = roofline.line("2D/rolling/avx512", ["other\n", NAME + LOOP], times, 2.5).split()
+        words = roofline.line("2D/rolling/avx512", ["other\n", NAME + LOOP], times, roofline.GOLDEN_COVE, 2.5).split()
         self.assertEqual(words[1], "1.4", "23 instructions for 16")
         self.assertEqual(words[-4:], ["0.6", "5.0", "2.0", "8.0"], "25 cycles for 16 at 2.5 GHz")
 
     def test_table_can_be_read(self):
         times = {"2D/rolling/avx512": (5.0, 0.02), "2D/rolling/scalar": (60.0, 0.01)}
-        rows = [roofline.line(name, [NAME + LOOP], times, 2.5) for name in times]
+        rows = [roofline.line(name, [NAME + LOOP], times, roofline.GOLDEN_COVE, 2.5) for name in times]
         self.assertEqual(roofline.read_table("\n".join(roofline.HEAD + rows)),
                          {"2D/rolling/avx512": (0.6, 5.0, 0.02), "2D/rolling/scalar": (None, 60.0, 0.01)})
-        self.assertEqual(roofline.read_table(roofline.line("2D/rolling/avx512", [NAME + LOOP], {}, 2.5)), {})
+        self.assertEqual(roofline.read_table(roofline.line("2D/rolling/avx512", [NAME + LOOP], {}, roofline.GOLDEN_COVE, 2.5)), {})
 
     def test_kernel_without_adhesion(self):
         function = (NAME + LOOP).replace("true, true, false, true", "false, true, false, false")
-        self.assertEqual(roofline.line("2D/hertz-all/avx512", [function], {}, 2.5).split()[1], "1.4")
+        self.assertEqual(roofline.line("2D/hertz-all/avx512", [function], {}, roofline.GOLDEN_COVE, 2.5).split()[1], "1.4")
 
     def test_scalar_kernel_has_times_alone(self):
-        self.assertEqual(roofline.line("2D/rolling/scalar", [], {"2D/rolling/scalar": (60.0, 0.01)}, 2.5).split(),
+        self.assertEqual(roofline.line("2D/rolling/scalar", [], {"2D/rolling/scalar": (60.0, 0.01)}, roofline.GOLDEN_COVE, 2.5).split(),
                          ["2D/rolling/scalar", "60.0", "1.0"])
 
 
