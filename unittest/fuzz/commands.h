@@ -185,8 +185,9 @@ inline const Command commands[] = {
     {nve + pair + floor_below, "neighbor 0.5 bin", 1, "", false, 20.0},
     {pair + floor_below + "fix nve all nve/sphere/mts collision 10\n", "neighbor 0.5 bin", 1, "",
      false, 20.0},
-    {nve + pair + floor_below, "neigh_modify delay 0 every 1 check yes one 2000 page 100000", 1, "",
-     false, 1e6},
+    // (without keyword one: LAMMPS crashes at one 0, with any pair style)
+    {nve + pair + floor_below, "neigh_modify delay 0 every 1 check yes page 100000", 1, "", false,
+     1e6},
     {nve + pair + air + floor_below, "comm_modify vel yes cutoff 2.0 mode single", 1, "", false,
      20.0},
     {nve + pair + floor_below, "fix_modify floor energy yes virial yes respa 1", 2},
@@ -198,8 +199,10 @@ inline const Command commands[] = {
 struct Called {
   const char *keyword, *as;
 };
-inline const Called called[] = {
-    {"jkr", "young's modulus"}, {"jkr", "poisson's ratio"}, {"jkr", "surface energy"}};
+inline const Called called[] = {{"jkr", "young's modulus"},
+                                {"jkr", "poisson's ratio"},
+                                {"jkr", "surface energy"},
+                                {"feedback", "a grid of"}};
 
 // lower case; one of them begins every message of APF's own, and says nothing by itself
 inline const char *const names[] = {
