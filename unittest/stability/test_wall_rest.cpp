@@ -183,8 +183,7 @@ constexpr int slowly = 40000;
 const std::string damped = "damping tsuji 0.2 ";
 
 // Largest change of what the contact bears in one step, of the limit, while a sphere in steady slip
-// is unloaded and loaded the other way. A limit along the sign of the velocity would change it by
-// 2.
+// is unloaded and loaded the other way.
 double jump_at_reversal(Loaded &slips, const Load &load)
 {
   slips.sim.run("variable bears equal " + load.bears + "\nfix log all vector 1 v_bears\nthermo 1");
