@@ -10,10 +10,7 @@ what is in contact at the end; and how that compares with the ten minutes that A
 Every run leaves a JSON file in DIR (default ../build-speed): the command goes on where it was. Delete
 DIR after a change of the code. Needs Debian's python3-numpy and python3-matplotlib.
 """
-import argparse
-import os
 import shutil
-from pathlib import Path
 
 import matplotlib
 
@@ -21,8 +18,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lammps_runs import (CHANNEL, HERE, Store, keep_table, median_range, processor, prose, read_log,
-                         run_lammps, stop, verdict)
+from lammps_runs import (CHANNEL, keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs,
+                         processor, prose, read_log, run_lammps, stop, verdict)
 
 TARGET = 600.0         # s, phi = 50, t = 100, two ranks
 REPORTS = 24 * 3600    # s, of the report's run
@@ -30,27 +27,12 @@ REPORTS = 24 * 3600    # s, of the report's run
 
 def arguments():
     """Command line."""
-    parser = argparse.ArgumentParser(description="The report's channel to its end at each phi.")
+    parser = kept_runs_parser("The report's channel to its end at each phi.", ranks=2)
     parser.add_argument("--quick", action="store_true", help="one phi, one round, a short time")
     parser.add_argument("--phi", nargs="+", help="adhesion numbers (default 1.5 15 50 150)")
     parser.add_argument("--time", type=float, help="end of the runs [L/U] (default 100)")
     parser.add_argument("--rounds", type=int, help="runs of each (default 3)")
-    parser.add_argument("--ranks", type=int, default=2, help="MPI ranks (default 2)")
-    parser.add_argument("--measure", choices=("all", "nothing"), default="all",
-                        help="nothing shows what has run")
-    parser.add_argument("--lmp", default=HERE.parent / "lmp", help="LAMMPS with APF (default ../lmp)")
-    parser.add_argument("--work", type=Path, default=HERE.parent / "build-speed",
-                        help="folder for results of runs (default ../build-speed)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for table and plot (default results, beside this)")
-    args = parser.parse_args()
-    for name, short, full in (("phi", ["50"], ["1.5", "15", "50", "150"]), ("time", 0.5, 100.0),
-                              ("rounds", 1, 3)):
-        if getattr(args, name) is None:
-            setattr(args, name, short if args.quick else full)
-    lmp = shutil.which(args.lmp) or stop(f"{args.lmp} is not a program; name a LAMMPS with APF by --lmp")
-    args.lmp, args.work = os.path.abspath(lmp), args.work.resolve()
-    return args
+    return parse_kept_runs(parser, {"phi": (["50"], ["1.5", "15", "50", "150"]), "time": (0.5, 100.0), "rounds": (1, 3)})
 
 
 def run_channel(args, phi):
@@ -123,7 +105,7 @@ def draw(args, found, path):
 def main():
     """Runs what is missing, prints, writes and draws."""
     args = arguments()
-    found = measure(args, Store(args.work, ("errors",) if args.measure == "all" else ()))
+    found = measure(args, kept_runs(args))
     if not found:
         stop(f"{args.work}: nothing has run yet")
     draw(args, found, keep_table(table(args, found), args.results, "channel_full"))

@@ -11,11 +11,6 @@ time of each, and what mts gains. Every run leaves a JSON file in DIR (default .
 command goes on where it was. Delete DIR after a change of the code. Needs Debian's python3-numpy and
 python3-matplotlib.
 """
-import argparse
-import os
-import shutil
-from pathlib import Path
-
 import matplotlib
 
 matplotlib.use("Agg")
@@ -24,7 +19,8 @@ import numpy as np
 from matplotlib.ticker import NullLocator
 
 from channel_runs import PARTICLES, QUANTITIES, TWO_WAYS, channel_schemes, run_channel
-from lammps_runs import HERE, Store, keep_table, median_range, processor, prose, stop, verdict
+from lammps_runs import (keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs, processor,
+                         prose, stop, verdict)
 
 SHARES = ("in agg.", "wall")     # of QUANTITIES, shown as a share of all particles
 COLOURS = {"single rate": "#000000", "mts": "#D55E00"}
@@ -32,27 +28,12 @@ COLOURS = {"single rate": "#000000", "mts": "#D55E00"}
 
 def arguments():
     """Command line."""
-    parser = argparse.ArgumentParser(description="The channel at each phi, mts beside a single rate.")
+    parser = kept_runs_parser("The channel at each phi, mts beside a single rate.", ranks=2)
     parser.add_argument("--quick", action="store_true", help="one phi, one seed, a short time")
     parser.add_argument("--phi", nargs="+", help="adhesion numbers (default 1.5 15 50 150)")
     parser.add_argument("--time", type=float, help="end of the runs [L/U] (default 4)")
     parser.add_argument("--seeds", type=int, help="runs of each (default 3)")
-    parser.add_argument("--ranks", type=int, default=2, help="MPI ranks (default 2)")
-    parser.add_argument("--measure", choices=("all", "nothing"), default="all",
-                        help="nothing shows what has run")
-    parser.add_argument("--lmp", default=HERE.parent / "lmp", help="LAMMPS with APF (default ../lmp)")
-    parser.add_argument("--work", type=Path, default=HERE.parent / "build-speed",
-                        help="folder for results of runs (default ../build-speed)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for table and plot (default results, beside this)")
-    args = parser.parse_args()
-    for name, short, full in (("phi", ["50"], ["1.5", "15", "50", "150"]), ("time", 0.2, 4.0),
-                              ("seeds", 1, 3)):
-        if getattr(args, name) is None:
-            setattr(args, name, short if args.quick else full)
-    lmp = shutil.which(args.lmp) or stop(f"{args.lmp} is not a program; name a LAMMPS with APF by --lmp")
-    args.lmp, args.work = os.path.abspath(lmp), args.work.resolve()
-    return args
+    return parse_kept_runs(parser, {"phi": (["50"], ["1.5", "15", "50", "150"]), "time": (0.2, 4.0), "seeds": (1, 3)})
 
 
 def measure(args, store):
@@ -179,7 +160,7 @@ def draw(args, found, path):
 def main():
     """Runs what is missing, prints, writes and draws."""
     args = arguments()
-    found = measure(args, Store(args.work, ("errors",) if args.measure == "all" else ()))
+    found = measure(args, kept_runs(args))
     if not found:
         stop(f"{args.work}: nothing has run yet")
     draw(args, found, keep_table(table(args, found), args.results, "channel_phi"))

@@ -11,8 +11,6 @@ the cost model of doc/src/theory.rst says of the measured share. States and runs
 (default ../build-speed): the command goes on where it was. Delete DIR after a change of the code.
 Needs Debian's python3-numpy and python3-matplotlib.
 """
-import argparse
-import os
 import shutil
 import sys
 from pathlib import Path
@@ -24,8 +22,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from channel_runs import PARTICLES, TWO_WAYS, channel_schemes, channel_script, speeds
-from lammps_runs import (HERE, Failure, Store, keep_table, median_range, processor, prose, read_log,
-                         run_lammps, stop)
+from lammps_runs import (Failure, keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs,
+                         processor, prose, read_log, run_lammps, stop)
 
 PHI, SEED = "50", 4711
 SCHEMES = {TWO_WAYS[scheme.name]: scheme for scheme in channel_schemes() if scheme.name in TWO_WAYS}
@@ -33,28 +31,15 @@ SCHEMES = {TWO_WAYS[scheme.name]: scheme for scheme in channel_schemes() if sche
 
 def arguments():
     """Command line."""
-    parser = argparse.ArgumentParser(description="What multiple rates gain, by the share in contact.")
+    parser = kept_runs_parser("What multiple rates gain, by the share in contact.", ranks=1)
     parser.add_argument("--quick", action="store_true", help="two early times, one short round")
     parser.add_argument("--times", type=float, nargs="+",
                         help="of the states to go on from [L/U] (default 0.2 0.5 1 2 4 10 30)")
     parser.add_argument("--length", type=float, help="of what is timed [L/U] (default 0.5)")
     parser.add_argument("--rounds", type=int, help="runs of each from each state (default 3)")
-    parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (default 1)")
-    parser.add_argument("--measure", choices=("all", "nothing"), default="all",
-                        help="nothing shows what has run")
-    parser.add_argument("--lmp", default=HERE.parent / "lmp", help="LAMMPS with APF (default ../lmp)")
-    parser.add_argument("--work", type=Path, default=HERE.parent / "build-speed",
-                        help="folder for states and results of runs (default ../build-speed)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for table and plot (default results, beside this)")
-    args = parser.parse_args()
-    for name, short, full in (("times", [0.2, 0.5], [0.2, 0.5, 1.0, 2.0, 4.0, 10.0, 30.0]),
-                              ("length", 0.1, 0.5), ("rounds", 1, 3)):
-        if getattr(args, name) is None:
-            setattr(args, name, short if args.quick else full)
+    args = parse_kept_runs(parser, {"times": ([0.2, 0.5], [0.2, 0.5, 1.0, 2.0, 4.0, 10.0, 30.0]),
+                                    "length": (0.1, 0.5), "rounds": (1, 3)})
     args.times = sorted(args.times)
-    lmp = shutil.which(args.lmp) or stop(f"{args.lmp} is not a program; name a LAMMPS with APF by --lmp")
-    args.lmp, args.work = os.path.abspath(lmp), args.work.resolve()
     return args
 
 
@@ -200,7 +185,7 @@ def draw(found, path):
 def main():
     """Runs what is missing, prints, writes and draws."""
     args = arguments()
-    found = measure(args, Store(args.work, ("errors",) if args.measure == "all" else ()))
+    found = measure(args, kept_runs(args))
     if not found:
         stop(f"{args.work}: nothing has run yet")
     draw(found, keep_table(table(args, found), args.results, "contact_fraction"))

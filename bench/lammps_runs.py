@@ -44,6 +44,36 @@ def parse_rounds(parser):
     return args
 
 
+def kept_runs_parser(description, ranks):
+    """Options of a script whose runs are kept, see Store; parse_kept_runs() takes them."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--ranks", type=int, default=ranks, help=f"MPI ranks (default {ranks})")
+    parser.add_argument("--measure", choices=("all", "nothing"), default="all",
+                        help="nothing shows what has run")
+    parser.add_argument("--lmp", default=HERE.parent / "lmp", help="LAMMPS with APF (default ../lmp)")
+    parser.add_argument("--work", type=Path, default=HERE.parent / "build-speed",
+                        help="folder for results of runs (default ../build-speed)")
+    parser.add_argument("--results", type=Path, default=HERE / "results",
+                        help="folder for table and plot (default results, beside this)")
+    return parser
+
+
+def parse_kept_runs(parser, defaults):
+    """The command line; defaults: of options that --quick changes, name: (quick, full). The program is there."""
+    args = parser.parse_args()
+    for name, (quick, full) in defaults.items():
+        if getattr(args, name) is None:
+            setattr(args, name, quick if args.quick else full)
+    lmp = shutil.which(args.lmp) or stop(f"{args.lmp} is not a program; name a LAMMPS with APF by --lmp")
+    args.lmp, args.work = os.path.abspath(lmp), args.work.resolve()
+    return args
+
+
+def kept_runs(args):
+    """Where results of runs are kept; with --measure nothing none is run."""
+    return Store(args.work, ("errors",) if args.measure == "all" else ())
+
+
 def prose(text):
     """Lines of a text."""
     return textwrap.wrap(" ".join(text.split()), 100)
