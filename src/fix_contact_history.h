@@ -44,6 +44,7 @@ class FixContactHistory : public FixContacts {
   double longest_neck() const;
   apf::StiffestMode stiffest_possible() const;
   using FixContacts::note_touch;
+  using FixContacts::steps;
   using FixContacts::step_is_given;
 
   void serve(class PairGranularAdhesive *style) { pair = style; }

@@ -105,10 +105,19 @@ apf::ContactTimes FixContacts::last_times() const
   return {0.0, taken.behind, taken.step};
 }
 
+bool FixContacts::steps(int i) const
+{
+  return sub_stepper && sub_stepper->steps(i);
+}
+
 void FixContacts::note_touch(const apf::Approach &approach, double radius_sum,
-                             const apf::StiffestMode &mode)
+                             const apf::StiffestMode &mode, bool foreseen)
 {
   if (!sub_stepper || update->setupflag) return;
+  if (!foreseen) {
+    late++;
+    return;
+  }
   constexpr double rounding = 1.1;
   const double step = sub_stepper->largest_step(mode);
   const double moved = step * approach.relative_speed;

@@ -46,6 +46,8 @@ class FixContacts : public Fix {
   void count_into(double *counts) { add_counts(counts); }
 
   // ---- sub-steps of a particle step, for fix nve/sphere/mts
+  // velocities of walls that particles here may touch within that time; returns whether walls move
+  virtual bool include_walls(apf::VelocityRange &, double /*time*/) const { return false; }
   // the largest speed that contacts may bring about
   virtual void find_fastest(apf::LookAhead &) = 0;
   // bodies that touch or approach become active; the pairs that this brings about are remembered
@@ -61,7 +63,7 @@ class FixContacts : public Fix {
   // bridges formed since liquid was settled last get no more of it than there was
   virtual void settle_bridges() {}
   virtual double contacts_here() const = 0;      // of this rank; shared ones count by halves
-  bigint late_so_far() const { return late; }    // first seen deeper than a step can bring them
+  bigint late_so_far() const { return late; }    // unforeseen, or deeper than a step can bring them
   bool has_due() const { return !due.empty(); }
   std::vector<double> due_loads();    // [local and ghost atoms][3], those of owners; collective
 
@@ -103,8 +105,12 @@ class FixContacts : public Fix {
   double step_of_level() const;            // time between two force computations
   bool step_is_given() const;              // by the script, not chosen to suit the contacts
 
-  // takes note of a first touch, if it is deeper than the approach can have brought it in a step
-  void note_touch(const apf::Approach &, double radius_sum, const apf::StiffestMode &);
+  // whether a body here takes part in the collision steps, so that its contacts are looked for there
+  bool steps(int i) const;
+  // takes note of a first touch that was not foreseen: bodies that do not take part in the collision
+  // steps, or deeper than the approach can have brought it in one of these
+  void note_touch(const apf::Approach &, double radius_sum, const apf::StiffestMode &,
+                  bool foreseen);
 
   std::vector<FixContacts *> keepers;    // all fixes that own contacts, this one included
   bigint changes = 0;                    // contacts made and ended so far

@@ -70,6 +70,7 @@ class FixNVESphereMTS : public Fix {
   // time between two force computations of contacts, and of the kicks that atom i gets
   double collision_step() const;
   double step_of(int i) const;
+  bool steps(int i) const { return activity[i] != apf::FREE; }    // in the last particle step
   // no more than what a contact may get; one that nobody foresaw has not been asked
   double largest_step(const apf::StiffestMode &) const;
   bool fixed_number() const { return fixed_steps > 0; }

@@ -41,6 +41,7 @@ class FixWallLevelset : public FixContacts {
   int image(int *&, double **&) override;
   double memory_usage() override;
 
+  bool include_walls(apf::VelocityRange &, double time) const override;
   void find_fastest(apf::LookAhead &) override;
   void find_approaching(apf::LookAhead &) override;
   bool find_near(apf::LookAhead &) override;
@@ -126,7 +127,7 @@ class FixWallLevelset : public FixContacts {
   void find_again();
   void detect();
   void look_around(int i, const double *y);
-  void touch(int i, int surface);
+  void touch(int i, int surface, bool foreseen);
   const double *in_frame(const double *x, double *y) const;
   apf::Foot foot_of(int surface, const double *x, double *kappa = nullptr) const;
   bool farther(int surface, const double *x, double than) const;

@@ -95,14 +95,14 @@ void FixWallLevelset::look_around(int i, const double *y)
     if (touched[i] >> s & 1) continue;
     double d = surfaces[s].at_least(y);
     if (d < 2.0 * r) d = surfaces[s].distance(y);    // worth to know better
-    if (d <= r) touch(i, s);
+    if (d <= r) touch(i, s, steps(i));
     if (!(touched[i] >> s & 1)) least = std::min(least, d);
   }
   clearances.note(i, y, least);
 }
 
 // closes the contact if there is one and it is new
-void FixWallLevelset::touch(int i, int surface)
+void FixWallLevelset::touch(int i, int surface, bool foreseen)
 {
   if (touched[i] >> surface & 1) return;
   double x[3];
@@ -116,7 +116,7 @@ void FixWallLevelset::touch(int i, int surface)
                command, id, atom->tag[i], -foot.distance);
   const Marks others = zones_of(i);
   close(i, surface, apf::ContactHistory());
-  note_touch(approach_of(i, foot), atom->radius[i], contacts.mode(contacts.size() - 1));
+  note_touch(approach_of(i, foot), atom->radius[i], contacts.mode(contacts.size() - 1), foreseen);
   captured += 1.0;
   ledger.begin(zone_of(i, surface), others);
 }

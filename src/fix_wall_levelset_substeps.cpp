@@ -4,6 +4,7 @@
 
 #include "atom.h"
 #include "math_extra.h"
+#include "neighbor.h"
 #include "update.h"
 
 #include <cmath>
@@ -11,6 +12,24 @@
 using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
+
+bool FixWallLevelset::include_walls(apf::VelocityRange &range, double time) const
+{
+  if (!motion.pose.moves) {
+    const double rest[3] = {};
+    range.include(rest);
+    return false;
+  }
+  const double turning = std::sqrt(norm2(motion.pose.spin));
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const auto v = motion.pose.velocity_at(atom->x[i]);
+    const double there[3] = {v.x, v.y, v.z};
+    const double far = atom->radius[i] + neighbor->skin + time * MathExtra::len3(there);
+    if (!far_from_all(i, far)) range.include(there, turning * far);
+  }
+  return true;
+}
 
 void FixWallLevelset::find_fastest(apf::LookAhead &ahead)
 {
@@ -93,7 +112,7 @@ void FixWallLevelset::sub_step(const apf::ContactTimes &times)
 {
   motion.pose.advance(times.advance);
   const int before = contacts.size();
-  for (const auto &[i, s] : near) touch(i, s);
+  for (const auto &[i, s] : near) touch(i, s, true);
   if (wet) bridges.sub_detect(times.advance);
   gather();
   const int ended = add_forces(times, before);

@@ -120,9 +120,10 @@ void PairGranularAdhesive::detect(bool all, double step)
           apf::Approach::of(rows[candidates.i[k]], rows[candidates.j[k]], candidates.touch[k]);
       const int i = candidates.i[k], j = candidates.j[k];
       const bool mine = force->newton_pair || j < atom->nlocal || atom->tag[i] < atom->tag[j];
-      if (mine)
-        store->note_touch(approach, candidates.touch[k],
-                          mode_of(i, j));    // one of the ranks that see it
+      if (mine) {    // one of the ranks that see it
+        const bool foreseen = !all || (store->steps(i) && (j >= atom->nlocal || store->steps(j)));
+        store->note_touch(approach, candidates.touch[k], mode_of(i, j), foreseen);
+      }
       close(k, apf::ContactHistory());
       store->bodies().touch(i);
       store->bodies().touch(j);

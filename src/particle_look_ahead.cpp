@@ -13,12 +13,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace LAMMPS_NS;
 
 // Distance looked ahead over that of the approach; LookAhead::struck has the bound for impacts.
 static constexpr double lookahead_safety = 2.0;
-static constexpr double big = 1.0e300;
 
 /* ---------------------------------------------------------------------- */
 
@@ -57,27 +57,23 @@ bool ParticleLookAhead::look(double slow_largest)
 /* ----------------------------------------------------------------------
    in one pass, for it costs memory traffic: also the accelerations of surfaces by all forces as
    they stand, |f|/m + r |torque|/I
+   walls count as bodies, and images in a box that is sheared or stretched have velocities of their
+   own: impacts are the same for who moves along
 ------------------------------------------------------------------------- */
 
 ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest)
 {
-  double most[11];
-  std::fill(most, most + 11, -big);
-  double &speed2 = most[6], &acceleration2 = most[7], &displacement2 = most[8];
-  speed2 = displacement2 = 0.0;
-  acceleration2 = slow_largest * slow_largest;
+  apf::VelocityRange range, images;
+  double acceleration2 = slow_largest * slow_largest, displacement2 = 0.0;
+  double heaviest = 0.0, lightest = std::numeric_limits<double>::max();
   const auto &bodies = history->bodies();
   const auto *xs = rows_of(atom->x), *vs = rows_of(atom->v), *fs = rows_of(atom->f);
   const auto *torques = rows_of(atom->torque);
   for (int i = 0; i < atom->nlocal; i++) {
     const double *x = xs[i], *v = vs[i], *built = &x_built[3 * i], mass = atom->rmass[i];
-    for (int c = 0; c < 3; c++) {
-      most[c] = std::max(most[c], v[c]);
-      most[3 + c] = std::max(most[3 + c], -v[c]);
-    }
-    most[9] = std::max(most[9], mass);
-    most[10] = std::max(most[10], -mass);
-    speed2 = std::max(speed2, MathExtra::lensq3(v));
+    range.include(v);
+    heaviest = std::max(heaviest, mass);
+    lightest = std::min(lightest, mass);
     const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
     displacement2 = std::max(displacement2, MathExtra::lensq3(moved));
     const double f2 = MathExtra::lensq3(fs[i]), torque2 = MathExtra::lensq3(torques[i]);
@@ -87,14 +83,31 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
     if (history->count(i) == 0.0 && MathExtra::lensq3(load) == 0.0)
       acceleration2 = std::max(acceleration2, f2 / (mass * mass));
   }
-  double all[11];
-  MPI_Allreduce(most, all, 11, MPI_DOUBLE, MPI_MAX, world);
-  double spread2 = 0.0;
-  for (int c = 0; c < 3; c++)
-    spread2 += all[c] > -big ? (all[c] + all[3 + c]) * (all[c] + all[3 + c]) : 0.0;
-  const double heaviest = all[9], lightest = -all[10];
+  if (domain->deform_vremap)
+    for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
+      double v[3], omega[3];
+      bodies.motion(i, v, omega);
+      images.include(v);
+    }
+  bool walls_move = false;
+  for (const auto *keeper : keepers)
+    walls_move |= keeper->include_walls(range, lookahead_safety * update->dt);
+
+  double most[17] = {acceleration2, displacement2, heaviest, -lightest,
+                     static_cast<double>(walls_move)};
+  std::copy_n(range.most, 6, most + 5);
+  std::copy_n(images.most, 6, most + 11);
+  MPI_Allreduce(MPI_IN_PLACE, most, 17, MPI_DOUBLE, MPI_MAX, world);
+  std::copy_n(most + 5, 6, range.most);
+  std::copy_n(most + 11, 6, images.most);
+  heaviest = most[2];
+  lightest = -most[3];
   const double struck = heaviest > 0.0 ? 2.0 * heaviest / (heaviest + lightest) : 1.0;
-  return {std::sqrt(spread2), std::sqrt(all[6]), std::sqrt(all[7]), std::sqrt(all[8]), struck};
+  const double spread = range.spread(images), speed = range.fastest();
+  // what a wall strikes leaves it no faster than it came; less than `growth`: by forces
+  constexpr double growth = 1.2;
+  const double after = most[4] > 0.0 ? speed + spread : std::max(growth, struck) * speed;
+  return {spread, after, std::sqrt(most[0]), std::sqrt(most[1]), struck};
 }
 
 /* ----------------------------------------------------------------------
@@ -104,39 +117,40 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
 
 bool ParticleLookAhead::set_reach(const Extremes &now)
 {
-  constexpr double growth = 1.2;    // of speeds within one step
+  constexpr double growth = 1.2;    // of relative speeds within one step
   const double dt = update->dt, skin = neighbor->skin;
   ahead.reach = on ? lookahead_safety * dt : 0.0;
   ahead.struck = on ? (1.0 + now.struck) * dt : 0.0;
   ahead.margin = on ? history->longest_neck() : 0.0;
   ahead.extra = now.acceleration * dt;
-  // walls are at rest
-  ahead.limit = keepers.size() > 1 ? std::max(now.spread, now.speed) : now.spread;
+  ahead.limit = now.spread;
   const double fastest = now.spread + ahead.extra;
-  const double distance = ahead.reach * fastest;
-  if (on && fastest * dt > skin) {
+  const double longest = std::max(ahead.reach, ahead.struck);
+  const double distance = longest * fastest;
+  const bool pairs = on && atom->natoms > 1;    // a single particle needs no list for its walls
+  if (pairs && fastest * dt > skin) {
     // by speed and acceleration the way of this step is 0.4 of the skin
     const double way = 0.4 * skin, v = now.spread, a = now.acceleration;
-    error->all(
-        FLERR, Error::NOLASTLINE,
-        "{} {}: particles whose velocities differ by {:.3g}, and that gain up to {:.3g}, may "
-        "approach by {:.3g} in a timestep of {:.3g}, farther than the neighbor skin of "
-        "{:.3g} lets contacts be seen: use timestep {:.2g} or smaller, or neighbor {:.2g} "
-        "bin or larger",
-        command, carrier->id, v, ahead.extra, fastest * dt, dt, skin,
-        2.0 * way / (v + std::sqrt(v * v + 4.0 * a * way)), 1.2 * distance);
+    error->all(FLERR, Error::NOLASTLINE,
+               "{} {}: bodies whose velocities differ by {:.3g}, and that gain up to {:.3g}, may "
+               "approach by {:.3g} in a timestep of {:.3g}, farther than the neighbor skin of "
+               "{:.3g} lets contacts be seen: use timestep {:.2g} or smaller, or neighbor {:.2g} "
+               "bin or larger",
+               command, carrier->id, v, ahead.extra, fastest * dt, dt, skin,
+               2.0 * way / (v + std::sqrt(v * v + 4.0 * a * way)), 1.2 * distance);
   }
-  if (distance > skin) {
-    ahead.reach = skin / fastest;
-    ahead.struck = std::min(ahead.struck, ahead.reach);
+  if (pairs && distance > skin) {
+    ahead.reach = std::min(ahead.reach, skin / fastest);
+    ahead.struck = std::min(ahead.struck, skin / fastest);
     if (comm->me == 0 && !warned_of_skin)
-      error->warning(FLERR,
-                     "{} {}: looks ahead by {:.3g} timesteps instead of {}, for want of neighbor "
-                     "skin: use neighbor {:.2g} bin or larger, or a smaller timestep",
-                     command, carrier->id, ahead.reach / dt, lookahead_safety, 1.2 * distance);
+      error->warning(
+          FLERR,
+          "{} {}: looks ahead by {:.3g} timesteps instead of {:.3g}, for want of neighbor "
+          "skin: use neighbor {:.2g} bin or larger, or a smaller timestep",
+          command, carrier->id, skin / fastest / dt, longest / dt, 1.2 * distance);
     warned_of_skin = true;
   }
-  const double displacement = now.displacement + growth * now.speed * dt;
+  const double displacement = now.displacement + now.speed * dt;
   return domain->box_change_size || domain->box_change_shape ||
       2.0 * displacement + growth * std::min(distance, skin) > skin;
 }

@@ -55,8 +55,9 @@ class ParticleLookAhead : protected Pointers {
 
   // global maxima at the start of a particle step
   struct Extremes {
-    double spread;          // of velocities: no two differ by more                  [velocity]
-    double speed;           //                                                       [velocity]
+    double spread;          // of velocities, with images and walls: no two differ by more
+                            //                                                       [velocity]
+    double speed;           // none is larger, also after impacts                    [velocity]
     double acceleration;    // of particles that touch nothing                  [velocity/time]
     double displacement;    // since the neighbour list was built                      [length]
     double struck;          // speed of a light body struck by a heavy one, over the latter's  [-]

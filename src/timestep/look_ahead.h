@@ -21,6 +21,42 @@ namespace apf {
 // in this order, so that of two findings about a body the larger holds
 enum Activity : char { FREE, NEAR, ACTIVE };
 
+// Velocities of bodies: the largest along each axis and against it.
+struct VelocityRange {
+  static constexpr double none = -1.0e300;
+  double most[6] = {none, none, none, none, none, none};
+
+  // v, and what differs from it by no more than that along each axis
+  void include(const double *v, double by = 0.0)
+  {
+    for (int c = 0; c < 3; c++) {
+      most[c] = std::max(most[c], v[c] + by);
+      most[3 + c] = std::max(most[3 + c], by - v[c]);
+    }
+  }
+  // no two of them differ by more, nor one of them and one of these others
+  double spread(const VelocityRange &others) const
+  {
+    if (most[0] == none) return 0.0;
+    double sum = 0.0;
+    for (int c = 0; c < 3; c++) {
+      const double d = std::max(
+          {most[c] + most[3 + c], most[c] + others.most[3 + c], others.most[c] + most[3 + c]});
+      sum += d * d;
+    }
+    return std::sqrt(sum);
+  }
+  double fastest() const    // none of them is larger
+  {
+    double sum = 0.0;
+    for (int c = 0; c < 3; c++) {
+      const double along = most[c] > none ? std::max(most[c], most[3 + c]) : 0.0;
+      sum += along * along;
+    }
+    return std::sqrt(sum);
+  }
+};
+
 struct LookAhead {
   double reach = 0.0;      // safety factor x particle step                            [time]
   double struck = 0.0;     // the same for a body that another has struck               [time]
