@@ -31,16 +31,18 @@ def mean(run, key, start, end):
 
 def values_of(run, runs):
     """The quantities of report.csv, of one of the runs."""
-    early, late = mean(run, "TCE", 140, 160), mean(run, "TCE", 600, 800)
+    early, middle, late = (mean(run, "TCE", *span) for span in ((140, 160), (400, 600), (600, 800)))
     captured = [mean(other, "captured", 140, 160) for other in runs if parts(other)[0] == parts(run)[0]]
     values = {"captured at t = 150": mean(run, "captured", 140, 160),
               "captured at t = 150 / mean over phi": mean(run, "captured", 140, 160) / np.mean(captured) if len(captured) > 1 else np.nan,
               "efficiency at t = 150 [%]": early, "efficiency after 600 [%]": late, "efficiency after 600 / at 150": late / early,
+              "efficiency after 600 / from 400 to 600": late / middle,
               "largest efficiency [%]": run.history["TCE"][run.t > 20].max() if run.t[-1] > 20 else np.nan,
               "captured after 600 / from 400 to 600": mean(run, "captured", 600, 800) / mean(run, "captured", 400, 600),
               "share of the front after 600": mean(run, "front", 600, 800) / mean(run, "captured", 600, 800)}
     for key, where in (("dendrite", ""), ("front_dendrite", ", front")):
         end = run.history[key][run.t > 700]
+        values[f"mean dendrite length for 90 < t < 110{where} [um]"] = mean(run, key, 90, 110)
         values[f"mean dendrite length for t > 150{where} [um]"] = mean(run, key, 150, 800)
         values[f"largest dendrite length for t > 700{where} [um]"] = end.max() if len(end) else np.nan
         values[f"largest dendrite length{where} [um]"] = run.history[key].max()
