@@ -11,7 +11,7 @@ PARTICLES = 8000    # in.channel loses none
 QUANTITIES = {"in agg.": 2, "number": 3, "size": 4, "wall": 5}    # columns of .aggregates
 
 # of channel_schemes(), where two of them are compared
-TWO_WAYS = {"single rate report": "single rate", "mts tolerance 0.01": "mts"}
+TWO_WAYS = {"single rate 1": "single rate", "mts tolerance 0.01": "mts"}
 
 
 @dataclass(frozen=True)
@@ -34,10 +34,10 @@ def channel_schemes():
         return ChannelScheme(family, setting, f"nve/sphere/mts collision {words}", 0.01 * f2,
                              skin=1 if f2 <= 0.1 else 2)
 
-    return [ChannelScheme("single rate", "report", "nve/sphere", 2.5e-5),
+    return [*(ChannelScheme("single rate", f"{n:g}", "nve/sphere", n * 2.5e-5) for n in (1, 0.5, 2)),
             ChannelScheme("respa", "N=40", "nve/sphere", 1e-3, 40),
             sub("mts collision N", "N=40", "40"),
-            sub("mts auto", "0.3", "auto"),
+            *(sub("mts auto", f"{safety:g}", f"auto safety {safety:g}") for safety in (0.15, 0.3, 0.6)),
             sub("mts tolerance", "0.01", "tolerance 0.01"),
             sub("mts tolerance", "0.001", "tolerance 0.001"),
             *(sub("mts auto, f2", f"{f2:g}", "auto", f2) for f2 in (0.05, 0.2))]
@@ -79,6 +79,8 @@ def channel_rows(args, store):
     rows = {scheme: {} for scheme in channel_schemes()}
     for seed in range(4711, 4711 + args.seeds):
         for scheme, results in rows.items():
+            if args.schemes and scheme.name not in args.schemes:
+                continue
             result = store.get(f"channel t={args.time:g} np={args.ranks} {scheme.name} {seed}",
                                lambda s=scheme, seed=seed: run_channel(args, s, seed,
                                                                        args.time))
@@ -92,6 +94,8 @@ def channel_times(args, store):
     times = {scheme: [] for scheme in channel_schemes()}
     for n in range(args.repeat):
         for scheme, results in times.items():
+            if args.schemes and scheme.name not in args.schemes:
+                continue
             result = store.get(
                 f"time of channel t={args.clock:g} np={args.ranks} {scheme.name} round {n + 1}",
                 lambda s=scheme: read_time(run_channel(args, s, 4711, args.clock)), "times")

@@ -2,14 +2,15 @@
 """Speed against error of time integration: single rate, r-RESPA and fix nve/sphere/mts.
 
     speed_error.py [--quick] [--part impacts|channel|all] [--measure errors|times|all|nothing]
-                   [--time T] [--clock T] [--seeds K] [--ranks N] [--impacts N] [--repeat N]
-                   [--work DIR] [--results DIR] [--lmp FILE]
+                   [--time T] [--clock T] [--seeds K] [--schemes NAME ...] [--ranks N] [--impacts N]
+                   [--repeat N] [--work DIR] [--results DIR] [--lmp FILE]
 
-Prints, and writes to results/speed_error.txt with a plot in results/speed_error.png:
+Prints, and writes to results/speed_error_impacts.txt and speed_error_channel.txt, each with a plot:
 
   elastic impacts   restitution and sticking velocity of pairs and at a wall, beside exact values
   damped impacts    oblique, with friction, beside the finest run and a Runge-Kutta integrator
-  channel           aggregates of examples/channel, beside single-rate runs of the same seeds
+  channel           aggregates of examples/channel, beside single-rate runs of the same seeds; only some schemes
+                    with --schemes, by the names that the table has ("single rate 1", "mts auto 0.3")
 
 each with a wall-clock time, the median of N rounds (default 3) in each of which every scheme runs
 once. Errors do not mind other work on the machine, times do: --measure makes runs for the one or the
@@ -22,10 +23,10 @@ import shutil
 import sys
 from pathlib import Path
 
-from channel_runs import channel_set
+from channel_runs import channel_schemes, channel_set
 from impacts import damped_set, elastic_set
 from lammps_runs import HERE, Store, keep_table, stop
-from speed_error_report import draw, report
+from speed_error_report import channel_text, draw_channel, draw_impacts, impact_text
 
 
 def arguments():
@@ -39,6 +40,8 @@ def arguments():
     parser.add_argument("--clock", type=float,
                         help="the channel's times are measured up to this one (default 2)")
     parser.add_argument("--seeds", type=int, help="runs of each channel scheme (default 3)")
+    parser.add_argument("--schemes", nargs="+", choices=[s.name for s in channel_schemes()], metavar="NAME",
+                        help="schemes of the channel that are run (default all)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of the channel (default 1)")
     parser.add_argument("--impacts", type=int, help="impacts of a scene (default 10000)")
     parser.add_argument("--repeat", type=int, help="rounds in which times are measured (default 3)")
@@ -81,8 +84,11 @@ def main():
     elastic, damped, channel = found
     if not (elastic or damped or channel):
         stop(f"{args.work}: nothing has run yet")
-    text = report(args, *found)
-    draw(args, *found, keep_table(text, args.results, "speed_error"))
+    if elastic or damped:
+        text = impact_text(args, elastic, damped)
+        draw_impacts(args, elastic, damped, keep_table(text, args.results, "speed_error_impacts"))
+    if channel:
+        draw_channel(channel, keep_table(channel_text(args, channel), args.results, "speed_error_channel"))
 
 
 if __name__ == "__main__":

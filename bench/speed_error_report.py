@@ -125,27 +125,35 @@ def channel_lines(args, rows):
     return lines
 
 
-def report(args, elastic, damped, channel):
-    """The text that is printed and written."""
-    blocks = [prose(f"""{processor()}; wall-clock times are LAMMPS's loop times, one core unless
-                    said otherwise, of runs of their own: median (smallest .. largest) of
-                    {args.repeat} round(s), in each of which every scheme ran once; impacts: all scenes
-                    of a scheme together. Numbers beside single rate, respa and N are omega dt of the stiffest
+def joined(*blocks):
+    """Text of blocks of lines."""
+    return "\n\n".join("\n".join(block) for block in blocks) + "\n"
+
+
+def impact_text(args, elastic, damped):
+    """Tables of the impacts."""
+    blocks = [prose(f"""{processor()}, one core; wall-clock times are LAMMPS's loop times of all scenes of a scheme
+                    together: median (smallest .. largest) of {args.repeat} round(s), in each of which every scheme ran
+                    once. Numbers beside single rate, respa and N are omega dt of the stiffest
                     mode at rest; those beside auto are its safety, which counts the compression of
                     the hardest impact in view, too, so that omega dt at rest is smaller (see
                     Lambda); those beside tolerance are T, those beside f2 the particle step in
-                    d/U, else 0.1 (at the safety 0.15 for impacts, 0.3 for the channel). late: contacts found late. blind: lookahead no, as the report
+                    d/U, else 0.1, at the safety 0.15. late: contacts found late. blind: lookahead no, as the report
                     has it, safety 0.15; contacts that are first seen at the end of a particle step
-                    have gained so much energy that particles may leave the box.
-                    Impacts under respa rebuild the neighbour list every particle step: it is
-                    checked after the inner steps only.""")]
+                    have gained so much energy that particles may leave the box. Under respa the neighbour list is
+                    rebuilt every particle step: it is checked after the inner steps only.""")]
     if elastic:
         blocks.append(elastic_lines(args, elastic))
     if damped and damped["rows"]:
         blocks.append(damped_lines(args, damped))
-    if channel:
-        blocks.append(channel_lines(args, channel))
-    return "\n\n".join("\n".join(block) for block in blocks) + "\n"
+    return joined(*blocks)
+
+
+def channel_text(args, rows):
+    """Table of the channel."""
+    return joined(prose(f"""{processor()}. Beside single rate: LAMMPS's step over that of the report, 2.5e-5 L/U; beside
+                        respa and N: collision steps of a particle step of 0.1 d/U; beside auto: safety, or 0.3, and f2, the
+                        particle step in d/U, else 0.1; beside tolerance: T."""), channel_lines(args, rows))
 
 
 # ---------------------------------------------------------------------- plot
@@ -211,7 +219,7 @@ def draw_sticking_panel(axis, args, elastic, damped):
 
 def draw_channel_panel(axis, rows):
     """Difference from single rate over wall-clock time."""
-    draw_families(axis, [(s, row) for s, row in rows if s.family != "single rate"],
+    draw_families(axis, rows[1:],
                   lambda row: (100 * row["rms"].mean, 100 * row["rms"].error), {"linestyle": "-"})
     if "time" in rows[0][1]:
         axis.axvline(np.median(rows[0][1]["time"]), color="k", linewidth=0.9, linestyle="--",
@@ -223,12 +231,19 @@ def draw_channel_panel(axis, rows):
     decades(axis)
 
 
-def draw(args, elastic, damped, channel, path):
-    """Error over wall-clock time, panels for each part that has run."""
-    parts = [lambda axis: draw_impacts_panel(axis, elastic, damped),
-             lambda axis: draw_sticking_panel(axis, args, elastic, damped)] if elastic or damped else []
-    if channel:
-        parts.append(lambda axis: draw_channel_panel(axis, channel))
+def draw_impacts(args, elastic, damped, path):
+    """Errors of e and of the sticking velocity over wall-clock time."""
+    draw([lambda axis: draw_impacts_panel(axis, elastic, damped),
+          lambda axis: draw_sticking_panel(axis, args, elastic, damped)], path)
+
+
+def draw_channel(rows, path):
+    """Differences from single rate over wall-clock time."""
+    draw([lambda axis: draw_channel_panel(axis, rows)], path)
+
+
+def draw(parts, path):
+    """Panels side by side, with one legend of all schemes."""
     figure, panels = plt.subplots(1, len(parts), figsize=(1.5 + 5 * len(parts), 5.4), squeeze=False)
     for part, axis in zip(parts, panels[0]):
         part(axis)

@@ -44,8 +44,8 @@ class FixContactHistory : public FixContacts {
   double longest_neck() const;
   apf::StiffestMode stiffest_possible() const;
   using FixContacts::note_touch;
-  using FixContacts::steps;
   using FixContacts::step_is_given;
+  using FixContacts::steps;
 
   void serve(class PairGranularAdhesive *style) { pair = style; }
   class PairGranularAdhesive &served() const { return *pair; }

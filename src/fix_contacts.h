@@ -105,10 +105,10 @@ class FixContacts : public Fix {
   double step_of_level() const;            // time between two force computations
   bool step_is_given() const;              // by the script, not chosen to suit the contacts
 
-  // whether a body here takes part in the collision steps, so that its contacts are looked for there
+  // whether a body here takes part in the collision steps, where its contacts are looked for
   bool steps(int i) const;
-  // takes note of a first touch that was not foreseen: bodies that do not take part in the collision
-  // steps, or deeper than the approach can have brought it in one of these
+  // takes note of a first touch that was not foreseen: of bodies that do not take part in collision
+  // steps, or deeper than the approach can have brought it in one
   void note_touch(const apf::Approach &, double radius_sum, const apf::StiffestMode &,
                   bool foreseen);
 

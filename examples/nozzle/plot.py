@@ -22,6 +22,8 @@ from report import Ours, Run, arguments, conclude, draw_pictures, read_runs, tho
 CHANNEL = 5e-4    # width of the channel [m], as in in.nozzle
 DENSITY, SPEED = 2600, 1.0    # of particles, and mean of the water in the exit; as there
 LENGTHS = ("0", "0.5", "1")    # of the contraction [widths of the channel]
+KINDS = {"": "", "ratio50": ", d = D/50", "c0.02": ", c0 = 0.02"}    # by the end of a run's name
+LINES = dict(zip(KINDS.values(), ("-", ":", "-.")))
 TRANSIT = 10 / 1.5    # from the exit to the outlet, 10 D at the largest velocity there [D/U]
 
 
@@ -33,8 +35,8 @@ def parts(run):
 
 
 def kind(run):
-    """Words for what is not the usual: particles of a fiftieth of the exit."""
-    return ", d = D/50" if run.name.endswith("ratio50") else ""
+    """Words for what is not the usual: particles of a fiftieth of the exit, or fewer of them."""
+    return KINDS["".join(run.name.split("-")[4:])]
 
 
 def order(run):
@@ -154,7 +156,7 @@ def draw_history(runs, path):
 def draw_profiles(groups, path):
     """Mean size of free aggregates along the axis; groups are (title, runs, label of a run).
 
-    Colours are those of phi where there are several, else of the walls; small particles are dotted.
+    Colours are those of phi where there are several, else of the walls; small particles are dotted, few of them dash-dotted.
     """
     figure, axes = plt.subplots(1, len(groups), figsize=(4.5 * len(groups), 3.6), layout="constrained",
                                 squeeze=False, sharey=True)
@@ -162,7 +164,7 @@ def draw_profiles(groups, path):
         phis = sorted({parts(run)[1] for run in runs})
         for run in runs:
             colour = f"C{phis.index(parts(run)[1])}" if len(phis) > 1 else "C1" if parts(run)[2] else "C0"
-            axis.plot(*size_along(run), linewidth=1, linestyle=":" if kind(run) else "-", color=colour, label=label(run))
+            axis.plot(*size_along(run), linewidth=1, linestyle=LINES[kind(run)], color=colour, label=label(run))
         for x in {0.0, float(parts(runs[0])[0])}:
             axis.axvline(x, color="0.6", linestyle="--", linewidth=0.8)
         axis.set(xlabel="x / width of the channel", title=title)

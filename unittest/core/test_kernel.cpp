@@ -100,6 +100,19 @@ TEST(Kernel, build_is_chosen_from_those_of_this_processor)
   EXPECT_EQ(matches, 1);
 }
 
+// the tests here compare the builds that this processor can run: it says which others there are
+TEST(Kernel, every_build_runs_here)
+{
+  std::string missing;
+  for (const std::string name : {"baseline", "avx2", "avx512"}) {
+    bool there = false;
+    for (const auto &build : kernel_builds()) there |= name == build.name;
+    if (!there) missing += " " + name;
+  }
+  EXPECT_EQ(missing.find("baseline"), std::string::npos);
+  if (!missing.empty()) GTEST_SKIP() << "not compared, for want of the instructions:" << missing;
+}
+
 TEST(Kernel, asking_for_parts_changes_nothing)
 {
   for (const auto &build : kernel_builds())

@@ -66,8 +66,8 @@ TEST(MtsFrames, door_drives_two_spheres)
 }
 
 // Two spheres at rest on either side of a boundary at which the box is sheared: one meets the
-// other's image at the relative speed of the two sides. Or the same pair amid a box at rest. (LAMMPS
-// moves the box at the end of a step, so that images begin to move a step later.)
+// other's image at the relative speed of the two sides. Or the same pair amid a box at rest.
+// LAMMPS moves the box at the end of a step, so that images begin to move a step later.
 Outcome across_boundary(double timestep, bool image)
 {
   const double offset = 8.0;    // of velocities: length of the box times rate

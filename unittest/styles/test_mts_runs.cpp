@@ -211,6 +211,7 @@ TEST(RanksMtsRuns, outputs_are_those_of_verlet_at_the_collision_step)
     auto numbers = seen(sim);
     const auto state = state_of(sim);
     numbers.insert(numbers.end(), state.f.begin(), state.f.end());
+    numbers.insert(numbers.end(), state.torque.begin(), state.torque.end());
     return numbers;
   };
   const auto reference = outcome("", "run 800"), levels = outcome(fixed, "run 40");
