@@ -88,11 +88,11 @@ def draw(args, found, path):
     middle = np.array([np.median(t) for t in times])
     bars = axis.bar(range(len(times)), middle, 0.6, color="#0072B2", capsize=4,
                     yerr=(middle - [min(t) for t in times], [max(t) for t in times] - middle))
-    axis.bar_label(bars, fmt="%.0f s", padding=3)
+    axis.bar_label(bars, fmt="%.0f s", padding=-16, color="w")
     if args.time == 100:
         axis.axhline(TARGET, color="k", linestyle=":", label="target at phi = 50: 600 s")
         axis.axhline(REPORTS, color="firebrick", linestyle="--", label="the report's run: 24 h")
-        axis.legend(frameon=False, fontsize=8, loc="lower right")
+        axis.legend(frameon=False, fontsize=8, loc="center right", bbox_to_anchor=(1, 0.75))
     axis.set(xlabel=r"$\phi = \gamma/(\rho_p U^2 r)$", ylabel="wall-clock time [s]", yscale="log", ylim=(10, 2 * REPORTS),
              title=f"channel to t = {args.time:g} L/U, {args.ranks} rank(s)\nmedian; bars: smallest and largest")
     axis.set_xticks(range(len(times)), list(found))

@@ -70,7 +70,8 @@ int FixContactHistory::level() const
 
 void FixContactHistory::initial_integrate_respa(int /*vflag*/, int ilevel, int /*iloop*/)
 {
-  if (ilevel == outermost && lists.too_old_for_step(level() < outermost))
+  if (ilevel == outermost &&
+      lists.too_old_for_step(level() < outermost, velocities.bodies, keepers))
     next_reneighbor = update->ntimestep;
 }
 

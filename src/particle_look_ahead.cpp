@@ -8,6 +8,7 @@
 #include "fix_contact_history.h"
 #include "force.h"
 #include "math_extra.h"
+#include "meeting_velocities.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -19,6 +20,7 @@ using namespace LAMMPS_NS;
 
 // Distance looked ahead over that of the approach; LookAhead::struck has the bound for impacts.
 static constexpr double lookahead_safety = 2.0;
+static constexpr double growth = 1.2;    // of speeds within one step, but for impacts
 
 /* ---------------------------------------------------------------------- */
 
@@ -57,21 +59,19 @@ bool ParticleLookAhead::look(double slow_largest)
 /* ----------------------------------------------------------------------
    in one pass, for it costs memory traffic: also the accelerations of surfaces by all forces as
    they stand, |f|/m + r |torque|/I
-   walls count as bodies, and images in a box that is sheared or stretched have velocities of their
-   own: impacts are the same for who moves along
 ------------------------------------------------------------------------- */
 
 ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest)
 {
-  apf::VelocityRange range, images;
+  MeetingVelocities velocities;
   double acceleration2 = slow_largest * slow_largest, displacement2 = 0.0;
   double heaviest = 0.0, lightest = std::numeric_limits<double>::max();
   const auto &bodies = history->bodies();
   const auto *xs = rows_of(atom->x), *vs = rows_of(atom->v), *fs = rows_of(atom->f);
   const auto *torques = rows_of(atom->torque);
   for (int i = 0; i < atom->nlocal; i++) {
-    const double *x = xs[i], *v = vs[i], *built = &x_built[3 * i], mass = atom->rmass[i];
-    range.include(v);
+    const double *x = xs[i], *built = &x_built[3 * i], mass = atom->rmass[i];
+    velocities.include(vs[i]);
     heaviest = std::max(heaviest, mass);
     lightest = std::min(lightest, mass);
     const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
@@ -83,30 +83,19 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
     if (history->count(i) == 0.0 && MathExtra::lensq3(load) == 0.0)
       acceleration2 = std::max(acceleration2, f2 / (mass * mass));
   }
-  if (domain->deform_vremap)
-    for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
-      double v[3], omega[3];
-      bodies.motion(i, v, omega);
-      images.include(v);
-    }
-  bool walls_move = false;
-  for (const auto *keeper : keepers)
-    walls_move |= keeper->include_walls(range, lookahead_safety * update->dt);
+  velocities.include_others(atom, domain, bodies, keepers, lookahead_safety * update->dt);
 
-  double most[17] = {acceleration2, displacement2, heaviest, -lightest,
-                     static_cast<double>(walls_move)};
-  std::copy_n(range.most, 6, most + 5);
-  std::copy_n(images.most, 6, most + 11);
-  MPI_Allreduce(MPI_IN_PLACE, most, 17, MPI_DOUBLE, MPI_MAX, world);
-  std::copy_n(most + 5, 6, range.most);
-  std::copy_n(most + 11, 6, images.most);
+  double most[4 + MeetingVelocities::size] = {acceleration2, displacement2, heaviest, -lightest};
+  velocities.pack(most + 4);
+  MPI_Allreduce(MPI_IN_PLACE, most, 4 + MeetingVelocities::size, MPI_DOUBLE, MPI_MAX, world);
+  velocities.unpack(most + 4);
   heaviest = most[2];
   lightest = -most[3];
   const double struck = heaviest > 0.0 ? 2.0 * heaviest / (heaviest + lightest) : 1.0;
-  const double spread = range.spread(images), speed = range.fastest();
-  // what a wall strikes leaves it no faster than it came; less than `growth`: by forces
-  constexpr double growth = 1.2;
-  const double after = most[4] > 0.0 ? speed + spread : std::max(growth, struck) * speed;
+  const double spread = velocities.spread(), fastest = velocities.fastest();
+  // what a wall strikes leaves it no faster than it came
+  const double after = velocities.walls_move() ? fastest + spread
+                                               : std::max(growth, struck) * fastest;
   return {spread, after, std::sqrt(most[0]), std::sqrt(most[1]), struck};
 }
 
@@ -117,7 +106,6 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
 
 bool ParticleLookAhead::set_reach(const Extremes &now)
 {
-  constexpr double growth = 1.2;    // of relative speeds within one step
   const double dt = update->dt, skin = neighbor->skin;
   ahead.reach = on ? lookahead_safety * dt : 0.0;
   ahead.struck = on ? (1.0 + now.struck) * dt : 0.0;

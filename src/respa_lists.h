@@ -6,6 +6,7 @@
 #ifndef APF_RESPA_LISTS_H
 #define APF_RESPA_LISTS_H
 
+#include "contact/bodies.h"
 #include "pointers.h"
 
 #include <vector>
@@ -20,8 +21,9 @@ class RespaLists : protected Pointers {
 
   // At the begin of an outermost step, when forces are those of its level: whether the list has to
   // be built for it. kicked: these forces are not contacts', so that they add to all approaches. An
-  // error if the skin is thinner than an approach. Collective.
-  bool too_old_for_step(bool kicked);
+  // error if the skin is thinner than an approach. rows: of all atoms. Collective.
+  bool too_old_for_step(bool kicked, const apf::Bodies &rows,
+                        const std::vector<class FixContacts *> &keepers);
 
   double memory_usage() const { return x_built.capacity() * sizeof(double); }    // [bytes]
 
