@@ -46,8 +46,8 @@ class FixContacts : public Fix {
   void count_into(double *counts) { add_counts(counts); }
 
   // ---- sub-steps of a particle step, for fix nve/sphere/mts
-  // velocities of walls that particles here may touch within that time; returns whether walls move
-  virtual bool include_walls(apf::VelocityRange &, double /*time*/) const { return false; }
+  // velocities of walls that particles here may touch within that time
+  virtual void include_walls(apf::VelocityRange &, double /*time*/) const {}
   // the largest speed that contacts may bring about
   virtual void find_fastest(apf::LookAhead &) = 0;
   // bodies that touch or approach become active; the pairs that this brings about are remembered

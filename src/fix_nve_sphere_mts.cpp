@@ -42,9 +42,8 @@ int FixNVESphereMTS::setmask()
 
 void FixNVESphereMTS::setup(int)
 {
-  run_totals = Totals();
   foresight.begin_run();
-  run_totals.late_before = late_contacts();
+  begin_totals();
 }
 
 // In a run's first step, when the fixes that come after this one have been set up as well.
@@ -53,7 +52,7 @@ void FixNVESphereMTS::find_slow_largest()
   foresight.gather_loads();
   slow_largest = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
-    slow_largest = std::max(slow_largest, MathExtra::len3(slow_of(i).a));
+    slow_largest = std::max(slow_largest, slow_of(i).mean_acceleration(atom->v[i], update->dt));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -87,7 +86,7 @@ void FixNVESphereMTS::initial_integrate(int /*vflag*/)
 
   drift_free();
   sub_step_active();
-  std::copy_n(foresight.ahead.activity.begin(), atom->nlocal, activity.begin());
+  std::copy_n(foresight.ahead.activity.begin(), atom->nlocal + atom->nghost, activity.begin());
 }
 
 // Every particle gets the kick of half the step with which it moved last.
@@ -279,7 +278,8 @@ void FixNVESphereMTS::end_slow_kicks()
   for (int i = 0; i < atom->nlocal; i++) {
     if (activity[i] == apf::FREE || !(atom->mask[i] & groupbit)) continue;
     const auto now = slow_of(i);
-    slow_largest = std::max(slow_largest, now.inv_mass > 0.0 ? MathExtra::len3(now.a) : 0.0);
+    if (now.inv_mass > 0.0)
+      slow_largest = std::max(slow_largest, now.mean_acceleration(atom->v[i], dt));
     const double time = time_left(now.rate), spin_time = time_left(now.spin_rate);
     for (int c = 0; c < 3; c++) {
       atom->v[i][c] += time * (now.a[c] - slow_before[i][c]);

@@ -35,7 +35,11 @@ class FixNVESphereMTS : public Fix {
   void init() override;
   void setup(int) override;
   void setup_post_neighbor() override { post_neighbor(); }
-  void post_neighbor() override { foresight.list_was_built(); }
+  void post_neighbor() override
+  {
+    foresight.list_was_built();
+    foresight.share(activity);    // ghosts are new
+  }
   void initial_integrate(int) override;
   void final_integrate() override;
   void post_run() override;
@@ -85,7 +89,7 @@ class FixNVESphereMTS : public Fix {
   int fluid_every = 1;    // particle steps of a fluid step
 
   int n_collision = 1;           // collision steps of the present particle step
-  std::vector<char> activity;    // of local atoms: was sub-stepped in the last particle step
+  std::vector<char> activity;    // of all atoms here: was sub-stepped in the last particle step
   std::vector<std::array<double, 6>> slow_before;    // accelerations that it began with
   ParticleLookAhead foresight;
   apf::Islands islands;    // of the present particle step, where there are several tiles
@@ -108,6 +112,7 @@ class FixNVESphereMTS : public Fix {
   double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 
   void parse(int, char **);
+  void begin_totals();
   void find_slow_largest();
   void choose_steps();
   void fit_due();

@@ -5,6 +5,7 @@
 #include "argument_reader.h"
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
 #include "fix_flow_force.h"
@@ -130,7 +131,14 @@ void FixNVESphereMTS::init()
     return keeper == history;
   });
 
-  foresight.init(history, keepers);
+  const auto freezes = modify->get_fix_by_style("^freeze");
+  freeze_group_bit = freezes.empty() ? 0 : freezes[0]->groupbit;
+  foresight.init(history, keepers, freeze_group_bit);
+  if (domain->deform_flag && !domain->deform_vremap && comm->me == 0)
+    error->warning(FLERR,
+                   "{} {}: fix deform moves particles or their images between two steps, which "
+                   "look-ahead does not see, so that contacts are found late; use remap v",
+                   command, id);
   // a restart file does not tell what was sub-stepped, and a run begins as it does from there
   std::fill(activity.begin(), activity.end(), apf::FREE);
 
@@ -142,8 +150,6 @@ void FixNVESphereMTS::init()
                      "freeze, or leave them out of the group of fix {}",
                      command, id, fix->id, fix->style, id);
 
-  const auto freezes = modify->get_fix_by_style("^freeze");
-  freeze_group_bit = freezes.empty() ? 0 : freezes[0]->groupbit;
   if (!fixed_steps && n_collision == 1)
     n_collision = std::max(1,
                            static_cast<int>(std::ceil(

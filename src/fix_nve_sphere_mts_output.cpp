@@ -24,14 +24,21 @@ void FixNVESphereMTS::post_run()
   MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   const bigint late = late_contacts() - run.late_before;
   const double contacts = compute_vector(2);
-  if (comm->me != 0) return;
-  utils::logmesg(lmp,
-                 "{} {}: {} particle steps of {:.4g}, {} collision steps, {} to {} in a particle "
-                 "step\n  sub-stepped {:.1f} % of the particles, {:.0f} contacts at the end; {}; "
-                 "contacts found late {}\n",
-                 command, id, run.particle_steps, update->dt, run.collision_steps, run.fewest,
-                 run.most, 100.0 * all[0] / std::max<bigint>(all[1], 1), contacts, finest_step(),
-                 late);
+  if (comm->me == 0)
+    utils::logmesg(lmp,
+                   "{} {}: {} particle steps of {:.4g}, {} collision steps, {} to {} in a particle "
+                   "step\n  sub-stepped {:.1f} % of the particles, {:.0f} contacts at the end; {}; "
+                   "contacts found late {}\n",
+                   command, id, run.particle_steps, update->dt, run.collision_steps, run.fewest,
+                   run.most, 100.0 * all[0] / std::max<bigint>(all[1], 1), contacts, finest_step(),
+                   late);
+  begin_totals();    // also for a run without setup
+}
+
+void FixNVESphereMTS::begin_totals()
+{
+  run_totals = Totals();
+  run_totals.late_before = late_contacts();
 }
 
 // what asked for it, or what the script's number of steps is worth and which one would be accurate

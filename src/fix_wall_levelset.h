@@ -41,7 +41,7 @@ class FixWallLevelset : public FixContacts {
   int image(int *&, double **&) override;
   double memory_usage() override;
 
-  bool include_walls(apf::VelocityRange &, double time) const override;
+  void include_walls(apf::VelocityRange &, double time) const override;
   void find_fastest(apf::LookAhead &) override;
   void find_approaching(apf::LookAhead &) override;
   bool find_near(apf::LookAhead &) override;
@@ -143,7 +143,8 @@ class FixWallLevelset : public FixContacts {
   void check_places();
   void check_reach(double smallest);
   void check_grid(double smallest, double largest);
-  double speed_near(const double *x) const;    // of the wall, if it reached there
+  double speed_near(const double *x) const;          // of the wall, if it reached there
+  double speed_of(int i, const apf::LookAhead &);    // of an atom, as LookAhead has it
   apf::Approach approach_of(int i, const apf::Foot &);
   void close(int i, int surface, const apf::ContactHistory &);
   apf::ContactBodies bodies_of(int i, int surface) const;

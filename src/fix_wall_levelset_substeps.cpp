@@ -13,12 +13,12 @@ using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
 
-bool FixWallLevelset::include_walls(apf::VelocityRange &range, double time) const
+void FixWallLevelset::include_walls(apf::VelocityRange &range, double time) const
 {
   if (!motion.pose.moves) {
     const double rest[3] = {};
     range.include(rest);
-    return false;
+    return;
   }
   const double turning = std::sqrt(norm2(motion.pose.spin));
   for (int i = 0; i < atom->nlocal; i++) {
@@ -28,7 +28,6 @@ bool FixWallLevelset::include_walls(apf::VelocityRange &range, double time) cons
     const double far = atom->radius[i] + neighbor->skin + time * MathExtra::len3(there);
     if (!far_from_all(i, far)) range.include(there, turning * far);
   }
-  return true;
 }
 
 void FixWallLevelset::find_fastest(apf::LookAhead &ahead)
@@ -37,9 +36,9 @@ void FixWallLevelset::find_fastest(apf::LookAhead &ahead)
   if (contacts.size() == 0) return;
   gather();    // contacts may have ended since the last forces
   rows.with_rows([&](const auto *r) {
-    ahead.fastest = std::max(ahead.fastest, contacts.find_fastest(r, update->dt, [&](int k) {
+    contacts.find_fastest(r, update->dt, ahead, [&](int k) {
       return ahead.acceleration[contacts.source[k]];
-    }));
+    });
   });
 }
 
@@ -58,7 +57,7 @@ void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
       const auto approach = approach_of(i, foot_of(s, x));
       if (!closed && approach.gap > farthest) continue;
       if (closed || approach.gap <= ahead.distance(approach.closing_speed)) {
-        ahead.meet(i, approach.relative_speed);
+        ahead.meet(i, approach.relative_speed, speed_of(i, ahead));
         if (!closed) near.push_back({i, s});
       } else {
         perhaps.push_back({i, s, approach.gap});
@@ -86,6 +85,15 @@ apf::Approach FixWallLevelset::approach_of(int i, const apf::Foot &foot)
   return {foot.distance - atom->radius[i], MathExtra::dot3(v, n) / MathExtra::len3(n), speed};
 }
 
+double FixWallLevelset::speed_of(int i, const apf::LookAhead &ahead)
+{
+  double speed = 0.0;
+  particles().with_rows([&](const auto *r) {
+    speed = ahead.speed_of(r, i);
+  });
+  return speed;
+}
+
 double FixWallLevelset::speed_near(const double *x) const
 {
   if (!motion.pose.moves) return 0.0;
@@ -98,7 +106,8 @@ bool FixWallLevelset::find_near(apf::LookAhead &ahead)
 {
   size_t left = 0;
   for (const auto &candidate : perhaps) {
-    if (ahead.activity[candidate.i] == apf::FREE || candidate.gap > ahead.distance_if_struck())
+    if (ahead.free(candidate.i) ||
+        candidate.gap > ahead.distance_if_struck(ahead.after_impacts(), ahead.walls))
       perhaps[left++] = candidate;
     else
       near.push_back({candidate.i, candidate.surface});

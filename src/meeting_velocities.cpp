@@ -18,19 +18,32 @@ void MeetingVelocities::include_others(const Atom *atom, const Domain *domain,
       rows.motion(i, v, omega);
       images.include(v);
     }
-  for (const auto *keeper : keepers) moving_walls |= keeper->include_walls(bodies, time);
+  for (const auto *keeper : keepers) keeper->include_walls(walls, time);
 }
 
 void MeetingVelocities::pack(double *buf) const
 {
-  buf = std::copy_n(bodies.most, 6, buf);
-  buf = std::copy_n(images.most, 6, buf);
-  *buf = moving_walls;
+  for (const auto *range : {&bodies, &images, &walls}) buf = std::copy_n(range->most, 6, buf);
 }
 
 void MeetingVelocities::unpack(const double *buf)
 {
-  std::copy_n(buf, 6, bodies.most);
-  std::copy_n(buf + 6, 6, images.most);
-  moving_walls = buf[12] > 0.0;
+  for (auto *range : {&bodies, &images, &walls}) {
+    std::copy_n(buf, 6, range->most);
+    buf += 6;
+  }
+}
+
+double MeetingVelocities::spread() const
+{
+  auto all = bodies;
+  all.include(walls);
+  return all.spread(images);
+}
+
+double MeetingVelocities::fastest(const double *in) const
+{
+  auto all = bodies;
+  all.include(images);
+  return all.farthest_from(in);
 }

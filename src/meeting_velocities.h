@@ -13,24 +13,30 @@ namespace LAMMPS_NS {
 
 class MeetingVelocities {
  public:
-  // of a particle
+  // of a particle, and of one that cannot be moved
   void include(const double *v) { bodies.include(v); }
+  void include_held()
+  {
+    const double rest[3] = {};
+    walls.include(rest);
+  }
   // of all images, by their rows, and of the walls that particles may touch within that time
   void include_others(const class Atom *, const class Domain *, const apf::Bodies &rows,
                       const std::vector<class FixContacts *> &keepers, double time);
 
   // what ranks tell each other: the largest of each of these numbers
-  static constexpr int size = 13;
+  static constexpr int size = 18;
   void pack(double *) const;
   void unpack(const double *);
 
-  double spread() const { return bodies.spread(images); }    // no two that may meet differ by more
-  double fastest() const { return bodies.fastest(); }        // of particles and walls
-  bool walls_move() const { return moving_walls; }
+  double spread() const;    // no two that may meet differ by more
+  // a frame in which walls rest, or the middle of all velocities if there are none
+  void frame(double *v) const { (walls.empty() ? bodies : walls).middle(v); }
+  double fastest(const double *in) const;    // of particles and images in a frame
+  double fastest_wall(const double *in) const { return walls.farthest_from(in); }
 
  private:
-  apf::VelocityRange bodies, images;
-  bool moving_walls = false;
+  apf::VelocityRange bodies, images, walls;
 };
 
 }    // namespace LAMMPS_NS

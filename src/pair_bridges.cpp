@@ -183,9 +183,11 @@ void PairBridges::share_masses()
 void PairBridges::find_fastest(apf::LookAhead &ahead)
 {
   store->bodies().with_rows([&](const auto *rows) {
-    ahead.fastest = std::max(ahead.fastest, list.fastest(rows, update->dt, [&](int b) {
+    const double most = list.fastest(rows, update->dt, [&](int b) {
       return ahead.acceleration[list.i[b]] + ahead.acceleration[list.j[b]];
-    }));
+    });
+    ahead.fastest = std::max(ahead.fastest, most);
+    ahead.released = std::max(ahead.released, most);
   });
 }
 
@@ -197,8 +199,8 @@ void PairBridges::find_approaching(apf::LookAhead &ahead, std::vector<int> &near
     for (int b = 0; b < list.size(); b++) {
       const int i = list.i[b], j = list.j[b], k = list.source[b];
       const auto approach = apf::Approach::of(rows[i], rows[j], 0.0);
-      ahead.meet(i, approach.relative_speed);
-      ahead.meet(j, approach.relative_speed);
+      ahead.meet(i, approach.relative_speed, ahead.speed_of(rows, i));
+      ahead.meet(j, approach.relative_speed, ahead.speed_of(rows, j));
       if (!pair->is_closed(k)) near_touch.push_back(k);
     }
   });

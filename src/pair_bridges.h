@@ -34,7 +34,10 @@ class PairBridges : protected Pointers {
   // what FixContacts asks of the pair style
   void find_fastest(apf::LookAhead &);
   void find_approaching(apf::LookAhead &, std::vector<int> &near_touch);
-  bool find_near(apf::LookAhead &ahead) { return meetings.find_near(ahead); }
+  template <class Row> bool find_near(const Row *rows, apf::LookAhead &ahead)
+  {
+    return meetings.find_near(rows, ahead);
+  }
   void find_stiffest(apf::Stiffest &);
 
   // liquid on the particles, where there is an inventory: what was taken since it was settled last

@@ -121,7 +121,7 @@ void PairGranularAdhesive::detect(bool all, double step)
       const int i = candidates.i[k], j = candidates.j[k];
       const bool mine = force->newton_pair || j < atom->nlocal || atom->tag[i] < atom->tag[j];
       if (mine) {    // one of the ranks that see it
-        const bool foreseen = !all || (store->steps(i) && (j >= atom->nlocal || store->steps(j)));
+        const bool foreseen = !all || (store->steps(i) && store->steps(j));
         store->note_touch(approach, candidates.touch[k], mode_of(i, j), foreseen);
       }
       close(k, apf::ContactHistory());
@@ -143,9 +143,9 @@ void PairGranularAdhesive::detect(bool all, double step)
 void PairGranularAdhesive::find_fastest(apf::LookAhead &ahead)
 {
   store->bodies().with_rows([&](const auto *rows) {
-    ahead.fastest = std::max(ahead.fastest, contacts.find_fastest(rows, update->dt, [&](int k) {
+    contacts.find_fastest(rows, update->dt, ahead, [&](int k) {
       return ahead.acceleration[contacts.i[k]] + ahead.acceleration[contacts.j[k]];
-    }));
+    });
   });
   if (wet) bridges.find_fastest(ahead);
 }
@@ -160,8 +160,12 @@ void PairGranularAdhesive::find_approaching(apf::LookAhead &ahead)
 
 bool PairGranularAdhesive::find_near(apf::LookAhead &ahead)
 {
-  const bool any = candidates.find_near(ahead);
-  return (wet && bridges.find_near(ahead)) || any;
+  bool any = false;
+  store->bodies().with_rows([&](const auto *rows) {
+    any = candidates.find_near(rows, ahead);
+    if (wet) any |= bridges.find_near(rows, ahead);
+  });
+  return any;
 }
 
 void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)

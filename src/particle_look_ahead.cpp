@@ -18,8 +18,8 @@
 
 using namespace LAMMPS_NS;
 
-// Distance looked ahead over that of the approach; LookAhead::struck has the bound for impacts.
-static constexpr double lookahead_safety = 2.0;
+static constexpr double lookahead_safety =
+    2.0;                                 // distance looked ahead over that of the approach
 static constexpr double growth = 1.2;    // of speeds within one step, but for impacts
 
 /* ---------------------------------------------------------------------- */
@@ -29,8 +29,10 @@ ParticleLookAhead::ParticleLookAhead(LAMMPS *lmp, Fix *carrier, const char *comm
 {
 }
 
-void ParticleLookAhead::init(FixContactHistory *of_pairs, const std::vector<FixContacts *> &all)
+void ParticleLookAhead::init(FixContactHistory *of_pairs, const std::vector<FixContacts *> &all,
+                             int frozen)
 {
+  freeze_group_bit = frozen;
   history = of_pairs;
   keepers = all;
 }
@@ -41,18 +43,26 @@ void ParticleLookAhead::list_was_built()
   x_built.assign(&atom->x[0][0], &atom->x[0][0] + 3 * static_cast<size_t>(atom->nlocal));
 }
 
+void ParticleLookAhead::share(std::vector<char> &activity)
+{
+  shared = &activity;
+  message = Message::SHARED;
+  comm->forward_comm(carrier, 1);
+}
+
 /* ---------------------------------------------------------------------- */
 
 bool ParticleLookAhead::look(double slow_largest)
 {
   ahead.begin(atom->nlocal + atom->nghost);
+  ahead.radius = atom->radius;
   const bool rebuild = set_reach(find_extremes(slow_largest));
   find_active();
   if (!owners_known) know_owners();
   std::vector<char> wanted(atom->nlocal, 0);
   exchange.choose(ahead.used, domain, domain->deform_vremap, history->bodies(), wanted);
   for (int i = 0; i < atom->nlocal; i++)
-    if (wanted[i]) ahead.come_near(i);
+    if (wanted[i]) come_near(i);
   return rebuild;
 }
 
@@ -64,39 +74,63 @@ bool ParticleLookAhead::look(double slow_largest)
 ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest)
 {
   MeetingVelocities velocities;
-  double acceleration2 = slow_largest * slow_largest, displacement2 = 0.0;
+  double acceleration2 = slow_largest * slow_largest, displacement2 = 0.0, spin2 = 0.0;
   double heaviest = 0.0, lightest = std::numeric_limits<double>::max();
+  bool held = false;
   const auto &bodies = history->bodies();
   const auto *xs = rows_of(atom->x), *vs = rows_of(atom->v), *fs = rows_of(atom->f);
-  const auto *torques = rows_of(atom->torque);
+  const auto *torques = rows_of(atom->torque), *omegas = rows_of(atom->omega);
   for (int i = 0; i < atom->nlocal; i++) {
     const double *x = xs[i], *built = &x_built[3 * i], mass = atom->rmass[i];
     velocities.include(vs[i]);
-    heaviest = std::max(heaviest, mass);
-    lightest = std::min(lightest, mass);
+    if (moves(i)) {
+      heaviest = std::max(heaviest, mass);
+      lightest = std::min(lightest, mass);
+    } else {
+      held = true;
+    }
+    const double r = atom->radius[i];
+    spin2 = std::max(spin2, r * r * MathExtra::lensq3(omegas[i]));
     const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
     displacement2 = std::max(displacement2, MathExtra::lensq3(moved));
     const double f2 = MathExtra::lensq3(fs[i]), torque2 = MathExtra::lensq3(torques[i]);
-    ahead.acceleration[i] = (std::sqrt(f2) + 2.5 * std::sqrt(torque2) / atom->radius[i]) / mass;
+    ahead.acceleration[i] = (std::sqrt(f2) + 2.5 * std::sqrt(torque2) / r) / mass;
     double load[3] = {}, torque[3] = {};
     bodies.add_load_to(i, load, torque);
     if (history->count(i) == 0.0 && MathExtra::lensq3(load) == 0.0)
       acceleration2 = std::max(acceleration2, f2 / (mass * mass));
   }
+  if (held) velocities.include_held();
   velocities.include_others(atom, domain, bodies, keepers, lookahead_safety * update->dt);
 
-  double most[4 + MeetingVelocities::size] = {acceleration2, displacement2, heaviest, -lightest};
-  velocities.pack(most + 4);
-  MPI_Allreduce(MPI_IN_PLACE, most, 4 + MeetingVelocities::size, MPI_DOUBLE, MPI_MAX, world);
-  velocities.unpack(most + 4);
-  heaviest = most[2];
-  lightest = -most[3];
-  const double struck = heaviest > 0.0 ? 2.0 * heaviest / (heaviest + lightest) : 1.0;
-  const double spread = velocities.spread(), fastest = velocities.fastest();
-  // what a wall strikes leaves it no faster than it came
-  const double after = velocities.walls_move() ? fastest + spread
-                                               : std::max(growth, struck) * fastest;
-  return {spread, after, std::sqrt(most[0]), std::sqrt(most[1]), struck};
+  constexpr int others = 5;
+  double most[others + MeetingVelocities::size] = {acceleration2, displacement2, spin2, heaviest,
+                                                   -lightest};
+  velocities.pack(most + others);
+  MPI_Allreduce(MPI_IN_PLACE, most, others + MeetingVelocities::size, MPI_DOUBLE, MPI_MAX, world);
+  velocities.unpack(most + others);
+  velocities.frame(ahead.frame);
+  ahead.walls = velocities.fastest_wall(ahead.frame);
+  ahead.limit = velocities.fastest(ahead.frame) + apf::LookAhead::spin_share * std::sqrt(most[2]);
+  ahead.amplify = amplification(most[3], -most[4]);
+  return {velocities.spread(), std::sqrt(most[0]), std::sqrt(most[1])};
+}
+
+// The larger of what one impact and a row of impacts can do: of bodies that meet head-on, and of
+// masses that fall by a small factor from each to the next. What is not counted on: rows of more
+// than three within a step, the most of which is a factor of eight.
+double ParticleLookAhead::amplification(double heaviest, double lightest) const
+{
+  constexpr double most = 8.0;
+  if (heaviest <= 0.0) return 1.0;
+  const double head_on = (3.0 * heaviest - lightest) / (heaviest + lightest);
+  return std::min(most, std::max(head_on, std::sqrt(heaviest / lightest)));
+}
+
+// whether collisions move a body
+bool ParticleLookAhead::moves(int i) const
+{
+  return atom->mask[i] & carrier->groupbit && !(atom->mask[i] & freeze_group_bit);
 }
 
 /* ----------------------------------------------------------------------
@@ -107,14 +141,14 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
 bool ParticleLookAhead::set_reach(const Extremes &now)
 {
   const double dt = update->dt, skin = neighbor->skin;
+  ahead.step = on ? dt : 0.0;
   ahead.reach = on ? lookahead_safety * dt : 0.0;
-  ahead.struck = on ? (1.0 + now.struck) * dt : 0.0;
   ahead.margin = on ? history->longest_neck() : 0.0;
   ahead.extra = now.acceleration * dt;
-  ahead.limit = now.spread;
   const double fastest = now.spread + ahead.extra;
-  const double longest = std::max(ahead.reach, ahead.struck);
-  const double distance = longest * fastest;
+  const double longest =
+      std::max(lookahead_safety * now.spread, (1.0 + ahead.amplify) * ahead.limit);
+  const double distance = on ? longest * dt + ahead.reach * ahead.extra : 0.0;
   const bool pairs = on && atom->natoms > 1;    // a single particle needs no list for its walls
   if (pairs && fastest * dt > skin) {
     // by speed and acceleration the way of this step is 0.4 of the skin
@@ -128,17 +162,21 @@ bool ParticleLookAhead::set_reach(const Extremes &now)
                2.0 * way / (v + std::sqrt(v * v + 4.0 * a * way)), 1.2 * distance);
   }
   if (pairs && distance > skin) {
-    ahead.reach = std::min(ahead.reach, skin / fastest);
-    ahead.struck = std::min(ahead.struck, skin / fastest);
+    const double less = skin / distance;
+    ahead.reach *= less;
+    ahead.step *= less;
     if (comm->me == 0 && !warned_of_skin)
       error->warning(
           FLERR,
           "{} {}: looks ahead by {:.3g} timesteps instead of {:.3g}, for want of neighbor "
           "skin: use neighbor {:.2g} bin or larger, or a smaller timestep",
-          command, carrier->id, skin / fastest / dt, longest / dt, 1.2 * distance);
+          command, carrier->id, lookahead_safety * less, lookahead_safety, 1.2 * distance);
     warned_of_skin = true;
   }
-  const double displacement = now.displacement + now.speed * dt;
+  // of particles, after impacts
+  const double speed = MathExtra::len3(ahead.frame) + 2.0 * ahead.walls +
+      std::max(growth, ahead.amplify) * ahead.limit;
+  const double displacement = now.displacement + speed * dt;
   return domain->box_change_size || domain->box_change_shape ||
       2.0 * displacement + growth * std::min(distance, skin) > skin;
 }
@@ -155,21 +193,40 @@ void ParticleLookAhead::find_active()
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) {
     double load[3] = {}, torque[3] = {};
     bodies.add_load_to(i, load, torque);    // also of contacts that have ended
-    if (MathExtra::lensq3(load) > 0.0) ahead.come_near(i);
+    if (MathExtra::lensq3(load) > 0.0) come_near(i);
   }
   for (auto *keeper : keepers) keeper->find_fastest(ahead);
-  MPI_Allreduce(MPI_IN_PLACE, &ahead.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
-  ahead.limit = std::max(ahead.limit, ahead.fastest);
+  double most[3] = {ahead.released, ahead.fastest, 0.0};
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
+  ahead.released = most[0];
+  ahead.fastest = most[1];
   for (auto *keeper : keepers) keeper->find_approaching(ahead);
   share_activity();
-  MPI_Allreduce(MPI_IN_PLACE, &ahead.fastest, 1, MPI_DOUBLE, MPI_MAX, world);
-  // what may be struck may strike others, also on other ranks
-  for (int more = on; more;) {
-    more = 0;
-    for (auto *keeper : keepers) more |= keeper->find_near(ahead);
-    MPI_Allreduce(MPI_IN_PLACE, &more, 1, MPI_INT, MPI_MAX, world);
+  auto know_speeds = [&] {
+    most[0] = ahead.swiftest;
+    most[1] = ahead.fastest;
+    MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, world);
+    ahead.swiftest = most[0];
+    ahead.fastest = most[1];
+  };
+  know_speeds();
+  // what may be struck may strike others, also on other ranks; these may be swifter
+  for (bool more = on; more;) {
+    const double known = ahead.swiftest;
+    bool joined = false;
+    for (auto *keeper : keepers) joined |= keeper->find_near(ahead);
+    most[2] = joined;
+    know_speeds();
+    more = most[2] > 0.0 || ahead.swiftest > known;
     if (more) share_activity();
   }
+}
+
+void ParticleLookAhead::come_near(int i)
+{
+  history->bodies().with_rows([&](const auto *rows) {
+    ahead.come_near(i, ahead.speed_of(rows, i));
+  });
 }
 
 // Owners learn what pairs of other ranks found, ghosts what their owners know.
@@ -210,6 +267,8 @@ int ParticleLookAhead::pack_forward(int n, const int *list, double *buf) const
     const int i = list[k];
     if (message == Message::ACTIVITY) {
       *buf++ = ahead.activity[i];
+    } else if (message == Message::SHARED) {
+      *buf++ = (*shared)[i];
     } else if (message == Message::ACCELERATION) {
       *buf++ = ahead.acceleration[i];
     } else {
@@ -225,6 +284,8 @@ void ParticleLookAhead::unpack_forward(int n, int first, const double *buf)
   for (int i = first; i < first + n; i++)
     if (message == Message::ACTIVITY) {
       ahead.activity[i] = static_cast<char>(*buf++);
+    } else if (message == Message::SHARED) {
+      (*shared)[i] = static_cast<char>(*buf++);
     } else if (message == Message::ACCELERATION) {
       ahead.acceleration[i] = *buf++;
     } else {

@@ -20,9 +20,11 @@ class ParticleLookAhead : protected Pointers {
   ParticleLookAhead(LAMMPS *lmp, class Fix *carrier, const char *command);
   bool on = true;
 
-  void init(class FixContactHistory *history, const std::vector<class FixContacts *> &keepers);
+  void init(class FixContactHistory *history, const std::vector<class FixContacts *> &keepers,
+            int freeze_group_bit);
   void begin_run() { warned_of_skin = false; }
-  void list_was_built();    // rows are new
+  void list_was_built();                      // rows are new
+  void share(std::vector<char> &activity);    // with ghosts, as owners know it; collective
 
   // Looks at a particle step. slow_largest: acceleration of sub-stepped atoms here. Returns whether
   // the neighbour list must be built anew at the end of the step. Collective.
@@ -45,25 +47,28 @@ class ParticleLookAhead : protected Pointers {
   class Fix *carrier;
   const char *command;
   class FixContactHistory *history = nullptr;
+  int freeze_group_bit = 0;
   std::vector<class FixContacts *> keepers;
   bool warned_of_skin = false;
 
   std::vector<double> x_built;    // positions when the neighbour list was built, [atoms][3]
   bool owners_known = false;
   std::vector<int> owner_rank, owner_row;    // of local and ghost atoms, while these are told
-  enum class Message { OWNERS, ACTIVITY, ACCELERATION, LOADS } message = Message::OWNERS;
+  std::vector<char> *shared = nullptr;       // while it is told
+  enum class Message { OWNERS, ACTIVITY, SHARED, ACCELERATION, LOADS } message = Message::OWNERS;
 
   // global maxima at the start of a particle step
   struct Extremes {
     double spread;          // of velocities, with images and walls: no two differ by more
                             //                                                       [velocity]
-    double speed;           // none is larger, also after impacts                    [velocity]
     double acceleration;    // of particles that touch nothing                  [velocity/time]
     double displacement;    // since the neighbour list was built                      [length]
-    double struck;          // speed of a light body struck by a heavy one, over the latter's  [-]
   };
 
   Extremes find_extremes(double slow_largest);
+  double amplification(double heaviest, double lightest) const;
+  bool moves(int i) const;
+  void come_near(int i);
   bool set_reach(const Extremes &);
   void find_active();
   void share_activity();

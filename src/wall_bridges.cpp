@@ -308,9 +308,11 @@ void WallBridges::find_fastest(apf::LookAhead &ahead)
 {
   gather();
   rows.with_rows([&](const auto *r) {
-    ahead.fastest = std::max(ahead.fastest, list.fastest(r, update->dt, [&](int b) {
+    const double most = list.fastest(r, update->dt, [&](int b) {
       return ahead.acceleration[list.source[b]];
-    }));
+    });
+    ahead.fastest = std::max(ahead.fastest, most);
+    ahead.released = std::max(ahead.released, most);
   });
 }
 
@@ -329,10 +331,10 @@ void WallBridges::find_approaching(apf::LookAhead &ahead)
       const auto approach = wall->approach_of(i, wall->foot_of(s, x));
       const Place place{i, s, approach.gap - beyond};
       if (bridged) {
-        ahead.meet(i, approach.relative_speed);
+        ahead.meet(i, approach.relative_speed, wall->speed_of(i, ahead));
         if (!(wall->touched[i] >> s & 1)) wall->near.push_back({i, s});    // it pulls
       } else if (place.gap <= ahead.distance(approach.closing_speed)) {
-        ahead.meet(i, approach.relative_speed);
+        ahead.meet(i, approach.relative_speed, wall->speed_of(i, ahead));
         near.push_back(place);
       } else if (place.gap <= farthest) {
         perhaps.push_back(place);
@@ -345,7 +347,8 @@ void WallBridges::find_near(const apf::LookAhead &ahead)
 {
   size_t left = 0;
   for (const auto &place : perhaps) {
-    if (ahead.activity[place.i] == apf::FREE || place.gap > ahead.distance_if_struck())
+    if (ahead.free(place.i) ||
+        place.gap > ahead.distance_if_struck(ahead.after_impacts(), ahead.walls))
       perhaps[left++] = place;
     else
       near.push_back(place);

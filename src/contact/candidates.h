@@ -7,6 +7,7 @@
 #include "../timestep/look_ahead.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -80,34 +81,38 @@ struct Candidates {
       if (distance2(a, b) > most * most) continue;
       const auto approach = Approach::of(a, b, touch[k]);
       if (closed[k] || approach.gap <= ahead.distance(approach.closing_speed)) {
-        ahead.meet(i[k], approach.relative_speed);
-        ahead.meet(j[k], approach.relative_speed);
+        ahead.meet(i[k], approach.relative_speed, ahead.speed_of(rows, i[k]));
+        ahead.meet(j[k], approach.relative_speed, ahead.speed_of(rows, j[k]));
         if (!closed[k]) near.push_back(k);
       } else {
-        perhaps.push_back({k, approach.gap});
+        const double i_to_j = speed_towards(a, b, ahead.frame);
+        perhaps.push_back({k, approach.gap, i_to_j, approach.closing_speed - i_to_j});
       }
     }
   }
 
-  // Second part, when the activities of all bodies and the fastest of them are known; returns
+  // Second part, when the activities of all bodies and the swiftest of them are known; returns
   // whether bodies have become active by it, and others may therefore follow.
-  bool find_near(LookAhead &ahead)
+  template <class Row> bool find_near(const Row *rows, LookAhead &ahead)
   {
-    const double far = ahead.distance_if_struck();
     bool any = false;
     for (bool more = true; more;) {
       more = false;
       size_t left = 0;
       for (const auto &pair : perhaps) {
         const int a = i[pair.k], b = j[pair.k];
-        if (pair.gap > far || (ahead.activity[a] == FREE && ahead.activity[b] == FREE)) {
+        const double after = ahead.after_impacts();
+        const double speed_a = ahead.free(a) ? pair.i_to_j : after;
+        const double speed_b = ahead.free(b) ? pair.j_to_i : after;
+        if ((ahead.free(a) && ahead.free(b)) ||
+            pair.gap > ahead.distance_if_struck(speed_a, speed_b)) {
           perhaps[left++] = pair;
           continue;
         }
-        more |= ahead.activity[a] == FREE || ahead.activity[b] == FREE;
+        more |= ahead.free(a) || ahead.free(b);
         near.push_back(pair.k);
-        ahead.come_near(a);
-        ahead.come_near(b);
+        ahead.come_near(a, ahead.speed_of(rows, a));
+        ahead.come_near(b, ahead.speed_of(rows, b));
       }
       perhaps.resize(left);
       any |= more;
@@ -125,7 +130,8 @@ struct Candidates {
  private:
   struct Pair {
     int k;
-    double gap;
+    double gap;               // [length]
+    double i_to_j, j_to_i;    // speeds towards each other in the frame    [velocity]
   };
   std::vector<Pair> perhaps;
 
@@ -134,6 +140,12 @@ struct Candidates {
     double sum = 0.0;
     for (int c = 0; c < Row::dim; c++) sum += (b.x[c] - a.x[c]) * (b.x[c] - a.x[c]);
     return sum;
+  }
+  template <class Row> static double speed_towards(const Row &a, const Row &b, const double *frame)
+  {
+    double sum = 0.0;
+    for (int c = 0; c < Row::dim; c++) sum += (b.x[c] - a.x[c]) * (a.v[c] - frame[c]);
+    return sum / std::sqrt(distance2(a, b));
   }
   template <class Row> bool overlap(int k, const Row *rows) const
   {

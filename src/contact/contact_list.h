@@ -10,6 +10,7 @@
 #ifndef APF_CONTACT_LIST_H
 #define APF_CONTACT_LIST_H
 
+#include "../timestep/look_ahead.h"
 #include "bodies.h"
 #include "contact_kind.h"
 
@@ -151,23 +152,24 @@ class ContactList {
     return normal.energy(s) - least + 0.5 * c.kt * s * s * sliding2;
   }
 
-  // the fastest that the surfaces of contacts may come to move within a time step
+  // the fastest that the surfaces of contacts may come to move within a time step, and what their
+  // springs add
   // acceleration(k): largest that the surfaces in contact k have relative to each other
   template <class Row, class Acceleration>
-  double find_fastest(const Row *rows, double step, Acceleration acceleration)
+  void find_fastest(const Row *rows, double step, LookAhead &ahead, Acceleration acceleration)
   {
-    double most = 0.0;
     speed2.resize(size());
     for (int k = 0; k < size(); k++) {
       const auto &c = kinds.constants(kind[k]);
       const double v2 = speed2[k] =
           contact_speed2(rows[i[k]], rows[j[k]], c.radius_i, c.radius_sum - c.radius_i);
       const double v = std::sqrt(v2) + acceleration(k) * step;
-      if (v <= most) continue;
+      if (v <= ahead.fastest && v - std::sqrt(v2) <= ahead.released) continue;
       const double of_springs = std::sqrt(v2 + 2.0 * energy_above_rest(k) / mode(k).mass);
-      most = std::max(most, std::min(v, of_springs));
+      const double most = std::min(v, of_springs);
+      ahead.fastest = std::max(ahead.fastest, most);
+      ahead.released = std::max(ahead.released, most - std::sqrt(v2));
     }
-    return most;
   }
 
   // which contact demands the finest step, with the bodies as find_fastest() saw them

@@ -4,10 +4,15 @@
 //   gap < reach (closing speed + extra) + margin
 //
 // decides for a pair by itself. A body that touches or approaches another ("active") may be struck
-// in the course of the step and then move as fast as any of these; for its pairs the largest
-// relative speed of all of them stands in for the closing speed, and what it may strike in turn is
-// looked at in the same way, to the end of the chain. A light body that a heavy one strikes leaves
-// with up to twice its speed.
+// in the course of the step and fly in any direction. How fast, is bounded in a frame in which the
+// walls rest (if there are none, in the middle of all velocities): there an elastic impact of equal
+// bodies hands on no more than the larger of their speeds, and a wall gives it back. So the fastest
+// active body bounds them all. For its pairs
+//
+//   gap < step (speed after impacts + the other's towards it, or after impacts, + extra) + margin
+//
+// and what it may strike in turn is looked at in the same way, to the end of the chain. Light bodies
+// that heavy ones strike leave faster, by a factor `amplify` at most.
 
 #ifndef APF_LOOK_AHEAD_H
 #define APF_LOOK_AHEAD_H
@@ -26,6 +31,8 @@ struct VelocityRange {
   static constexpr double none = -1.0e300;
   double most[6] = {none, none, none, none, none, none};
 
+  bool empty() const { return most[0] == none; }
+
   // v, and what differs from it by no more than that along each axis
   void include(const double *v, double by = 0.0)
   {
@@ -34,10 +41,14 @@ struct VelocityRange {
       most[3 + c] = std::max(most[3 + c], by - v[c]);
     }
   }
+  void include(const VelocityRange &others)
+  {
+    for (int c = 0; c < 6; c++) most[c] = std::max(most[c], others.most[c]);
+  }
   // no two of them differ by more, nor one of them and one of these others
   double spread(const VelocityRange &others) const
   {
-    if (most[0] == none) return 0.0;
+    if (empty()) return 0.0;
     double sum = 0.0;
     for (int c = 0; c < 3; c++) {
       const double d = std::max(
@@ -46,24 +57,39 @@ struct VelocityRange {
     }
     return std::sqrt(sum);
   }
-  double fastest() const    // none of them is larger
+  void middle(double *v) const
   {
+    for (int c = 0; c < 3; c++) v[c] = empty() ? 0.0 : 0.5 * (most[c] - most[3 + c]);
+  }
+  // none of them differs from v by more
+  double farthest_from(const double *v) const
+  {
+    if (empty()) return 0.0;
     double sum = 0.0;
     for (int c = 0; c < 3; c++) {
-      const double along = most[c] > none ? std::max(most[c], most[3 + c]) : 0.0;
-      sum += along * along;
+      const double d = std::max(most[c] - v[c], most[3 + c] + v[c]);
+      sum += d * d;
     }
     return std::sqrt(sum);
   }
 };
 
 struct LookAhead {
-  double reach = 0.0;      // safety factor x particle step                            [time]
-  double struck = 0.0;     // the same for a body that another has struck               [time]
-  double extra = 0.0;      // speed that forces can add to an approach               [velocity]
-  double margin = 0.0;     // added to every distance                                  [length]
+  double step = 0.0;       // particle step                                               [time]
+  double reach = 0.0;      // safety factor x particle step                               [time]
+  double extra = 0.0;      // speed that forces can add to an approach                [velocity]
+  double margin = 0.0;     // added to every distance                                   [length]
   double fastest = 0.0;    // largest relative speed of bodies that touch or approach [velocity]
-  double limit = 0.0;      // no relative speed of two bodies is larger                [velocity]
+
+  // speeds in the frame
+  double frame[3] = {0.0, 0.0, 0.0};    // its velocity                               [velocity]
+  double walls = 0.0;       // none of them is faster                                 [velocity]
+  double limit = 0.0;       // no body is faster, now                                 [velocity]
+  double swiftest = 0.0;    // of active bodies, now                                  [velocity]
+  double released = 0.0;    // what springs of contacts can add                       [velocity]
+  double amplify = 1.0;     // speed after impacts over that of who struck                   [-]
+
+  const double *radius = nullptr;      // of each body                                [length]
   std::vector<char> activity;          // Activity of each body
   std::vector<double> acceleration;    // of its surface, by all forces    [velocity/time]
   std::vector<char> used;              // bodies that a pair here has made active
@@ -73,25 +99,54 @@ struct LookAhead {
     activity.assign(bodies, FREE);
     acceleration.assign(bodies, 0.0);
     used.assign(bodies, 0);
-    fastest = 0.0;
+    fastest = swiftest = released = 0.0;
   }
 
-  double distance(double speed) const { return reach * (std::max(speed, 0.0) + extra) + margin; }
+  bool free(int i) const { return activity[i] == FREE; }
 
-  double distance_if_struck() const { return struck * (fastest + extra) + margin; }
-  double farthest() const { return std::max(reach, struck) * (limit + extra) + margin; }
+  // Speed that a body has, or an impact with friction can make of its spin: the tangential part of
+  // an impulse is at most 2/7 of what turns both surfaces round.
+  template <class Row> double speed_of(const Row *rows, int i) const
+  {
+    const Row &row = rows[i];
+    double v2 = 0.0, w2 = 0.0;
+    for (int c = 0; c < Row::dim; c++) v2 += (row.v[c] - frame[c]) * (row.v[c] - frame[c]);
+    for (const double w : row.omega) w2 += w * w;
+    return std::sqrt(v2) + spin_share * radius[i] * std::sqrt(w2);
+  }
+  static constexpr double spin_share = 4.0 / 7.0;
 
-  void meet(int i, double relative_speed)
+  double after_impacts() const { return bounded(swiftest); }
+
+  double distance(double closing) const
+  {
+    return reach * (std::max(closing, 0.0) + extra) + margin;
+  }
+  double distance_if_struck(double speed_i, double speed_j) const
+  {
+    return step * (std::max(speed_i + speed_j, 0.0) + extra) + margin;
+  }
+  double farthest() const    // no distance is larger
+  {
+    return std::max(reach * (2.0 * limit + extra), step * (2.0 * bounded(limit) + extra)) + margin;
+  }
+
+  void meet(int i, double relative_speed, double speed)
   {
     activity[i] = ACTIVE;
     used[i] = 1;
     fastest = std::max(fastest, relative_speed);
+    swiftest = std::max(swiftest, speed);
   }
-  void come_near(int i)
+  void come_near(int i, double speed)
   {
     activity[i] = std::max<char>(activity[i], NEAR);
     used[i] = 1;
+    swiftest = std::max(swiftest, speed);
   }
+
+ private:
+  double bounded(double speed) const { return amplify * (speed + released) + 2.0 * walls; }
 };
 
 // Two bodies that see each other along a line.

@@ -25,6 +25,14 @@ struct Slow {
   double a[3] = {0.0, 0.0, 0.0};               // acceleration                 [velocity/time]
   double alpha[3] = {0.0, 0.0, 0.0};           // angular acceleration         [1/time^2]
   double rate = 0.0, spin_rate = 0.0;          // of relaxation                [1/time]
+
+  // mean acceleration over a time h of a body with velocity v, where relaxation slows it down
+  double mean_acceleration(const double *v, double h) const
+  {
+    double sum = 0.0;
+    for (int c = 0; c < 3; c++) sum += (a[c] - rate * v[c]) * (a[c] - rate * v[c]);
+    return std::sqrt(sum) * mean_decay(h * rate);
+  }
 };
 
 // The change of velocities in one kick: v += gain f + push - fade v.

@@ -23,10 +23,12 @@ SpaceRow body(double x, double v, double y = 0.0)
 
 LookAhead ahead_of(int bodies, double limit = 10.0)
 {
+  static const std::vector<double> radii(10, 0.5);
   LookAhead ahead;
-  ahead.reach = 2.0;
-  ahead.struck = 2.0;    // twice a step of 1
+  ahead.step = 1.0;
+  ahead.reach = 2.0;    // twice the step
   ahead.limit = limit;
+  ahead.radius = radii.data();
   ahead.begin(bodies);
   return ahead;
 }
@@ -58,7 +60,7 @@ TEST(LookAhead, pair_is_active_from_twice_the_way_of_a_step)
     auto pairs = all_pairs(2);
     auto ahead = ahead_of(2);
     pairs.find_approaching(rows, ahead);
-    pairs.find_near(ahead);
+    pairs.find_near(rows, ahead);
     EXPECT_EQ(ahead.activity[0], gap < 0.4 ? ACTIVE : FREE) << gap;
     EXPECT_EQ(ahead.activity[1], ahead.activity[0]);
     EXPECT_EQ(pairs.near.size(), gap < 0.4 ? 1u : 0u);
@@ -102,7 +104,7 @@ TEST(LookAhead, one_that_may_be_struck_is_near)
   auto pairs = all_pairs(4);
   auto ahead = ahead_of(4);
   pairs.find_approaching(rows, ahead);
-  pairs.find_near(ahead);
+  pairs.find_near(rows, ahead);
   EXPECT_EQ(ahead.activity[0], ACTIVE);
   EXPECT_EQ(ahead.activity[1], ACTIVE);
   EXPECT_EQ(ahead.activity[2], NEAR);

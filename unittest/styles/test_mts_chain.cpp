@@ -68,6 +68,80 @@ TEST(MtsChain, spring_that_lets_go_is_looked_at)
   EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
 }
 
+// What a wall or a held sphere gives back meets the next: a row of two, at speeds of 1 and 2 towards
+// a wall at rest, the first about to touch it. Impacts of equal spheres swap their speeds.
+TEST(MtsChain, what_comes_back_meets_the_next)
+{
+  for (const std::string at : {"wall", "frozen", "held"})
+    for (const double gap : {0.05, 0.15, 0.2, 0.22, 0.25, 0.28, 0.31, 0.35}) {
+      SCOPED_TRACE(at + " " + digits(gap));
+      const std::string law = " jkr 2e6 0.25 0 ";
+      auto scene = row_of_spheres("pair_style granular/adhesive\npair_coeff * *" + law + "\n");
+      scene.box = "-1 30 0 8 0 8";
+      std::vector<Sphere> spheres = {{1.505, 4.0, 4.0}, {2.505 + gap, 4.0, 4.0}};
+      if (at != "wall") spheres.push_back({0.5, 4.0, 4.0});
+      Simulation sim;
+      build(sim, spheres, scene);
+      set_motion(sim, 1, {-1.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      set_motion(sim, 2, {-2.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      sim.run("group free id 1 2\n");
+      if (at == "wall") sim.run("fix wall all wall/levelset plane x 1.0 NULL" + law);
+      if (at != "wall") set_motion(sim, 3, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+      if (at == "frozen") sim.run("group rest id 3\nfix hold rest freeze");
+      sim.run("fix nve " + std::string(at == "held" ? "free" : "all") +
+              " nve/sphere/mts collision auto safety 0.05\ntimestep 0.1\nrun 5");
+      const auto v = gather(sim, "v");
+      EXPECT_NEAR(v[0], 1.0, 0.01);
+      EXPECT_NEAR(v[3], 2.0, 0.01);
+      EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+    }
+}
+
+// Masses of 100, 10 and 1, the heaviest with speed 1: elastic impacts of v = 2 M / (M + m) each,
+// and the last goes on to a fourth sphere of mass 1, to which it hands its speed.
+TEST(MtsChain, speed_grows_along_falling_masses)
+{
+  for (const double gap : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3}) {
+    SCOPED_TRACE(gap);
+    Simulation sim;
+    const std::string law = "pair_style granular/adhesive\npair_coeff * * jkr 2e8 0.25 0\n";
+    build(sim, {{0.0, 4.0, 4.0}, {1.02, 4.0, 4.0}, {2.04, 4.0, 4.0}, {3.04 + gap, 4.0, 4.0}},
+          row_of_spheres(law));
+    sim.run("set atom 1 density 100\nset atom 2 density 10\n");
+    set_motion(sim, 1, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+    for (const int id : {2, 3, 4}) set_motion(sim, id, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+    sim.run("fix nve all nve/sphere/mts collision auto safety 0.05\ntimestep 0.1\nrun 2");
+    const double last = std::pow(200.0 / 110.0, 2);
+    EXPECT_NEAR(gather(sim, "v")[9] / last, 1.0, 0.01);
+    EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
+  }
+}
+
+// Friction makes speed of spin: a sphere that turns with 20 is thrown aside by one it touches, faster
+// than any moves, into a third. As with a single rate.
+TEST(MtsChain, what_spin_throws_is_seen)
+{
+  auto speeds = [](const std::string &integrate) {
+    Simulation sim;
+    build(
+        sim, {{0.0, 4.0, 4.0}, {1.003, 4.0, 4.0}, {1.003, 5.06, 4.0}},
+        row_of_spheres("pair_style granular/adhesive\npair_coeff * * jkr 2e6 0.25 20 damping none "
+                       "sliding 1.0\n"));
+    set_motion(sim, 1, {0.2, 0.0, 0.0}, {0.0, 0.0, 20.0});
+    for (const int id : {2, 3}) set_motion(sim, id, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+    sim.run(integrate);
+    auto v = gather(sim, "v");
+    v.push_back(integrate.find("mts") < integrate.size() ? sim.value("f_nve[5]") : 0.0);
+    return v;
+  };
+  const auto reference = speeds("fix nve all nve/sphere\ntimestep 2e-5\nrun 10000");
+  const auto found =
+      speeds("fix nve all nve/sphere/mts collision auto safety 0.05\ntimestep 0.1\nrun 2");
+  EXPECT_GT(reference[7], 0.2);    // the third goes aside
+  for (int k = 0; k < 9; k++) EXPECT_NEAR(found[k], reference[k], 0.03) << k;
+  EXPECT_EQ(found[9], 0.0);
+}
+
 // Without look-ahead an impact is seen too late, and too violent, but it keeps the momentum.
 TEST(MtsChain, late_contact_keeps_the_momentum)
 {
