@@ -11,8 +11,8 @@
 //
 //   gap < step (speed after impacts + the other's towards it, or after impacts, + extra) + margin
 //
-// and what it may strike in turn is looked at in the same way, to the end of the chain. Light bodies
-// that heavy ones strike leave faster, by a factor `amplify` at most.
+// and what it may strike in turn is looked at in the same way, to the end of the chain. Light
+// bodies that heavy ones strike leave faster, by a factor `amplify` at most.
 
 #ifndef APF_LOOK_AHEAD_H
 #define APF_LOOK_AHEAD_H

@@ -68,8 +68,8 @@ TEST(MtsChain, spring_that_lets_go_is_looked_at)
   EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
 }
 
-// What a wall or a held sphere gives back meets the next: a row of two, at speeds of 1 and 2 towards
-// a wall at rest, the first about to touch it. Impacts of equal spheres swap their speeds.
+// What a wall or a held sphere gives back meets the next: a row of two, at speeds of 1 and 2
+// towards a wall at rest, the first about to touch it. Impacts of equal spheres swap their speeds.
 TEST(MtsChain, what_comes_back_meets_the_next)
 {
   for (const std::string at : {"wall", "frozen", "held"})
@@ -117,8 +117,8 @@ TEST(MtsChain, speed_grows_along_falling_masses)
   }
 }
 
-// Friction makes speed of spin: a sphere that turns with 20 is thrown aside by one it touches, faster
-// than any moves, into a third. As with a single rate.
+// Friction makes speed of spin: a sphere is thrown aside by one that turns with 20, faster than any
+// moves, into a third. As with a single rate.
 TEST(MtsChain, what_spin_throws_is_seen)
 {
   auto speeds = [](const std::string &integrate) {
