@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "atom_rows.h"
+#include "comm.h"
 #include "error.h"
 #include "fix_contact_history.h"
 #include "fix_flow_force.h"
@@ -44,6 +45,15 @@ void FixNVESphereMTS::setup(int)
 {
   foresight.begin_run();
   begin_totals();
+  int held_that_move = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    held_that_move |= !(atom->mask[i] & groupbit) && MathExtra::lensq3(atom->v[i]) > 0.0;
+  MPI_Allreduce(MPI_IN_PLACE, &held_that_move, 1, MPI_INT, MPI_MAX, world);
+  if (held_that_move && comm->me == 0)
+    error->warning(FLERR,
+                   "{} {}: particles outside its group have velocities, which contacts take for "
+                   "true though these particles stand still: set them to 0",
+                   command, id);
 }
 
 // In a run's first step, when the fixes that come after this one have been set up as well.

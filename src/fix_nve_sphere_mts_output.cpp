@@ -3,6 +3,7 @@
 #include "fix_nve_sphere_mts.h"
 
 #include "comm.h"
+#include "error.h"
 #include "fix_contacts.h"
 #include "math_const.h"
 #include "restart_state.h"
@@ -32,6 +33,12 @@ void FixNVESphereMTS::post_run()
                    command, id, run.particle_steps, update->dt, run.collision_steps, run.fewest,
                    run.most, 100.0 * all[0] / std::max<bigint>(all[1], 1), contacts, finest_step(),
                    late);
+  if (late > 0 && foresight.on && comm->me == 0)
+    error->warning(
+        FLERR,
+        "{} {}: {} contacts were found late, some with far too much energy: use a smaller "
+        "timestep, or see which command moves particles between two steps",
+        command, id, late);
   begin_totals();    // also for a run without setup
 }
 

@@ -171,6 +171,35 @@ TEST(MtsErrors, summary_counts_what_was_found_late)
                {"1 contacts at the end", "contacts found late 1\n"});
 }
 
+// With look-ahead nothing is found late but what something else moves between two steps: a warning.
+TEST(MtsErrors, late_contacts_give_a_warning_where_none_are_expected)
+{
+  for (const bool moved : {false, true}) {
+    Simulation sim;
+    build(sim, {{3.0, 4.0, 4.0}, {5.0, 4.0, 4.0}});
+    const auto text = log_of(
+        sim,
+        "group one id 1\nfix nve all nve/sphere/mts collision auto\ntimestep 0.0001\n"
+        "neighbor 2 bin\n" +
+            std::string(moved ? "fix put one recenter 4.001 INIT INIT shift one units box\n" : "") +
+            "run 2\n");
+    EXPECT_EQ(text.find("1 contacts were found late") != std::string::npos, moved);
+  }
+}
+
+TEST(MtsErrors, held_particles_that_have_velocities_give_a_warning)
+{
+  for (const bool fast : {false, true}) {
+    Simulation sim;
+    build(sim, {{3.0, 4.0, 4.0}, {5.0, 4.0, 4.0}});
+    const auto text = log_of(sim,
+                             "group one id 1\nset atom 2 vx " + std::string(fast ? "1e-5" : "0") +
+                                 "\nfix nve one nve/sphere/mts collision auto\ntimestep "
+                                 "0.0001\nneighbor 2 bin\nrun 1\n");
+    EXPECT_EQ(text.find("outside its group have velocities") != std::string::npos, fast);
+  }
+}
+
 // A pair at rest: sqrt(3.5 k_T/m) with k_T = 8 G a0 is its highest frequency, and the step is the
 // N-th part of the timestep.
 TEST(MtsErrors, summary_tells_what_a_number_of_steps_is_worth)
