@@ -3,6 +3,9 @@
 
 #include "scenes.h"
 
+#include <algorithm>
+#include <random>
+
 namespace {
 
 const double mass = pi / 6.0;    // d = 1, density 1
@@ -95,6 +98,41 @@ TEST(MtsChain, what_comes_back_meets_the_next)
       EXPECT_NEAR(v[3], 2.0, 0.01);
       EXPECT_EQ(sim.value("f_nve[5]"), 0.0);
     }
+}
+
+// Random rains of three spheres on a plane: whatever meets whatever, energy stays.
+TEST(MtsChain, rain_on_a_plane_keeps_its_energy)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform;
+  const std::string law = " jkr 2e6 0.25 0 ";
+  auto scene = row_of_spheres("pair_style granular/adhesive\npair_coeff * *" + law + "\n");
+  scene.box = "-1 40 0 1.5 0 1.5";
+  double late = 0.0, impacts = 0.0;
+  for (int n = 0; n < 300; n++) {
+    std::vector<Sphere> spheres;
+    while (spheres.size() < 3) {
+      const Sphere s{0.6 + 2.8 * uniform(random), 1.5 * uniform(random), 1.5 * uniform(random)};
+      const bool apart = std::all_of(spheres.begin(), spheres.end(), [&](const Sphere &other) {
+        const double y = std::remainder(s.y - other.y, 1.5), z = std::remainder(s.z - other.z, 1.5);
+        return std::pow(s.x - other.x, 2) + y * y + z * z > 1.04;
+      });
+      if (apart) spheres.push_back(s);
+    }
+    Simulation sim;
+    build(sim, spheres, scene);
+    for (const int id : {1, 2, 3})
+      set_motion(sim, id, {-0.25 - 0.75 * uniform(random), 0.0, 0.0}, {0.0, 0.0, 0.0});
+    sim.run("neighbor 1.5 bin\nfix wall all wall/levelset plane x 0 NULL" + law);
+    const double before = energy(sim);
+    sim.run("fix nve all nve/sphere/mts collision auto safety 0.2\ntimestep 0.1\nrun 60");
+    EXPECT_LT(energy(sim) / before, 1.01) << n;
+    if (sim.value("f_nve[3]") == 0.0) EXPECT_GT(energy(sim) / before, 0.99) << n;
+    late += sim.value("f_nve[5]");
+    impacts += sim.value("f_wall[8]");
+  }
+  EXPECT_EQ(late, 0.0);
+  EXPECT_GT(impacts, 600.0);
 }
 
 // Masses of 100, 10 and 1, the heaviest with speed 1: elastic impacts of v = 2 M / (M + m) each,
