@@ -186,8 +186,7 @@ void PairBridges::find_fastest(apf::LookAhead &ahead)
     const double most = list.fastest(rows, update->dt, [&](int b) {
       return ahead.acceleration[list.i[b]] + ahead.acceleration[list.j[b]];
     });
-    ahead.fastest = std::max(ahead.fastest, most);
-    ahead.released = std::max(ahead.released, most);
+    ahead.may_move(most, most);
   });
 }
 

@@ -311,8 +311,7 @@ void WallBridges::find_fastest(apf::LookAhead &ahead)
     const double most = list.fastest(r, update->dt, [&](int b) {
       return ahead.acceleration[list.source[b]];
     });
-    ahead.fastest = std::max(ahead.fastest, most);
-    ahead.released = std::max(ahead.released, most);
+    ahead.may_move(most, most);
   });
 }
 

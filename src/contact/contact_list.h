@@ -167,8 +167,7 @@ class ContactList {
       if (v <= ahead.fastest && v - std::sqrt(v2) <= ahead.released) continue;
       const double of_springs = std::sqrt(v2 + 2.0 * energy_above_rest(k) / mode(k).mass);
       const double most = std::min(v, of_springs);
-      ahead.fastest = std::max(ahead.fastest, most);
-      ahead.released = std::max(ahead.released, most - std::sqrt(v2));
+      ahead.may_move(most, most - std::sqrt(v2));
     }
   }
 

@@ -131,6 +131,12 @@ struct LookAhead {
     return std::max(reach * (2.0 * limit + extra), step * (2.0 * bounded(limit) + extra)) + margin;
   }
 
+  // a contact whose bodies may come to have that relative speed, of which its springs add a part
+  void may_move(double relative_speed, double added)
+  {
+    fastest = std::max(fastest, relative_speed);
+    released = std::max(released, added);
+  }
   void meet(int i, double relative_speed, double speed)
   {
     activity[i] = ACTIVE;
