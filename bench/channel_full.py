@@ -18,7 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lammps_runs import (CHANNEL, keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs,
+from lammps_runs import (CHANNEL, count, keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs,
                          processor, prose, read_log, run_lammps, stop, verdict)
 
 TARGET = 600.0         # s, phi = 50, t = 100, two ranks
@@ -31,7 +31,7 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="one phi, one round, a short time")
     parser.add_argument("--phi", nargs="+", help="adhesion numbers (default 1.5 15 50 150)")
     parser.add_argument("--time", type=float, help="end of the runs [L/U] (default 100)")
-    parser.add_argument("--rounds", type=int, help="runs of each (default 3)")
+    parser.add_argument("--rounds", type=count, help="runs of each (default 3)")
     return parse_kept_runs(parser, {"phi": (["50"], ["1.5", "15", "50", "150"]), "time": (0.5, 100.0), "rounds": (1, 3)})
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from matplotlib.ticker import NullLocator
 
 from channel_runs import PARTICLES, QUANTITIES, TWO_WAYS, channel_schemes, run_channel
-from lammps_runs import (keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs, processor,
+from lammps_runs import (count, keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs, processor,
                          prose, stop, verdict)
 
 SHARES = ("in agg.", "wall")     # of QUANTITIES, shown as a share of all particles
@@ -32,7 +32,7 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="one phi, one seed, a short time")
     parser.add_argument("--phi", nargs="+", help="adhesion numbers (default 1.5 15 50 150)")
     parser.add_argument("--time", type=float, help="end of the runs [L/U] (default 4)")
-    parser.add_argument("--seeds", type=int, help="runs of each (default 3)")
+    parser.add_argument("--seeds", type=count, help="runs of each (default 3)")
     return parse_kept_runs(parser, {"phi": (["50"], ["1.5", "15", "50", "150"]), "time": (0.2, 4.0), "seeds": (1, 3)})
 
 

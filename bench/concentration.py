@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lammps_runs import HERE, Failure, processor, run_lammps, stop
+from lammps_runs import HERE, Failure, count, keep_table, parse, processor, results_option, run_lammps, stop
 
 REACH = 4.0    # of a cloud, in radii
 # ns: a cell of a cloud, a cell along one axis of it, and a cell of the grid with its ghosts, as in
@@ -135,16 +135,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="few cases")
-    parser.add_argument("--repeat", type=int, default=3, help="runs of each")
-    parser.add_argument("--results", type=Path, default=HERE / "results")
+    parser.add_argument("--repeat", type=count, default=3, help="runs of each")
+    results_option(parser)
     parser.add_argument("--lmp", default=str(HERE.parent / "lmp"))
-    args = parser.parse_args()
+    args = parse(parser)
     with tempfile.TemporaryDirectory() as folder:
         times = measure(args, Path(folder))
     text = "\n".join(report(times, args.repeat)) + "\n"
-    args.results.mkdir(exist_ok=True)
-    (args.results / "concentration.txt").write_text(text)
-    print(text, end="")
+    keep_table(text, args.results, "concentration")
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from channel_runs import PARTICLES, TWO_WAYS, channel_schemes, channel_script, speeds
-from lammps_runs import (Failure, keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs,
+from lammps_runs import (Failure, count, keep_table, kept_runs, kept_runs_parser, median_range, parse_kept_runs,
                          processor, prose, read_log, run_lammps, stop)
 
 PHI, SEED = "50", 4711
@@ -36,7 +36,7 @@ def arguments():
     parser.add_argument("--times", type=float, nargs="+",
                         help="of the states to go on from [L/U] (default 0.2 0.5 1 2 4 10 30)")
     parser.add_argument("--length", type=float, help="of what is timed [L/U] (default 0.5)")
-    parser.add_argument("--rounds", type=int, help="runs of each from each state (default 3)")
+    parser.add_argument("--rounds", type=count, help="runs of each from each state (default 3)")
     args = parse_kept_runs(parser, {"times": ([0.2, 0.5], [0.2, 0.5, 1.0, 2.0, 4.0, 10.0, 30.0]),
                                     "length": (0.1, 0.5), "rounds": (1, 3)})
     args.times = sorted(args.times)

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lammps_runs import HERE, Failure, processor, stop
+from lammps_runs import HERE, Failure, count, keep_table, parse, processor, results_option, stop
 
 CELLS = (50, 50, 40)                # along x, y, z
 NODES = (100, 100, 100)
@@ -180,23 +180,20 @@ def main():
     """Parses the command line, measures and writes."""
     parser = argparse.ArgumentParser(description="Measures flowgrid.")
     parser.add_argument("--quick", action="store_true", help="two rounds")
-    parser.add_argument("--rounds", type=int, default=5, help="runs of each case (default 5)")
+    parser.add_argument("--rounds", type=count, default=5, help="runs of each case (default 5)")
     parser.add_argument("--flowgrid", default=HERE.parent / "flowgrid",
                         help="the program (default ../flowgrid)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for what is written (default results)")
-    args = parser.parse_args()
+    results_option(parser)
+    args = parse(parser)
     if args.quick:
         args.rounds = 2
-    args.results.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
         try:
             times, memory = measure(args, Path(scratch))
         except Failure as failure:
             stop(failure)
     text = "\n".join(table(times, memory, args)) + "\n"
-    print(text, end="")
-    (args.results / "flowgrid.txt").write_text(text)
+    keep_table(text, args.results, "flowgrid")
 
 
 if __name__ == "__main__":

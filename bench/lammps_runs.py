@@ -19,48 +19,66 @@ def stop(reason):
     sys.exit(f"{Path(sys.argv[0]).name}: {reason}")
 
 
+def count(text):
+    """Type of an option: a whole number above 0."""
+    if not text.isdigit() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"must be a whole number above 0, got {text}")
+    return int(text)
+
+
+def results_option(parser):
+    """Adds the folder for what is written; parse() takes it."""
+    parser.add_argument("--results", type=Path, metavar="DIR",
+                        help="folder for table and plot (default results, beside this; with --quick results/quick)")
+
+
+def parse(parser):
+    """The command line; the folder of the results is there."""
+    args = parser.parse_args()
+    args.results = args.results or HERE / "results" / ("quick" if getattr(args, "quick", False) else "")
+    args.results.mkdir(parents=True, exist_ok=True)
+    return args
+
+
 def rounds_parser(description, rounds, steps=None):
     """Options of a script that measures in rounds, of so many steps; parse_rounds() takes them."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--quick", action="store_true", help="two rounds")
-    parser.add_argument("--rounds", type=int, default=rounds,
+    parser.add_argument("--rounds", type=count, default=rounds,
                         help=f"runs of each case (default {rounds})")
     if steps:
-        parser.add_argument("--steps", type=int, default=steps, help=f"steps of a run (default {steps})")
+        parser.add_argument("--steps", type=count, default=steps, help=f"steps of a run (default {steps})")
     parser.add_argument("--lmp", default=HERE.parent / "lmp",
                         help="LAMMPS that loads APF (default ../lmp)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for what is written (default results)")
+    results_option(parser)
     return parser
 
 
 def parse_rounds(parser):
     """The command line; the program is there, and the folder of the results."""
-    args = parser.parse_args()
+    args = parse(parser)
     if args.quick:
         args.rounds = 2
     args.lmp = shutil.which(args.lmp) or stop(f"{args.lmp}: not there; --lmp names another")
-    args.results.mkdir(parents=True, exist_ok=True)
     return args
 
 
 def kept_runs_parser(description, ranks):
     """Options of a script whose runs are kept, see Store; parse_kept_runs() takes them."""
     parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("--ranks", type=int, default=ranks, help=f"MPI ranks (default {ranks})")
+    parser.add_argument("--ranks", type=count, default=ranks, help=f"MPI ranks (default {ranks})")
     parser.add_argument("--measure", choices=("all", "nothing"), default="all",
                         help="nothing shows what has run")
     parser.add_argument("--lmp", default=HERE.parent / "lmp", help="LAMMPS with APF (default ../lmp)")
     parser.add_argument("--work", type=Path, default=HERE.parent / "build-speed",
                         help="folder for results of runs (default ../build-speed)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for table and plot (default results, beside this)")
+    results_option(parser)
     return parser
 
 
 def parse_kept_runs(parser, defaults):
     """The command line; defaults: of options that --quick changes, name: (quick, full). The program is there."""
-    args = parser.parse_args()
+    args = parse(parser)
     for name, (quick, full) in defaults.items():
         if getattr(args, name) is None:
             setattr(args, name, quick if args.quick else full)
@@ -92,7 +110,6 @@ def median_range(values, form):
 def keep_table(text, folder, name):
     """Prints a table and writes it to name.txt in the folder of results; the path of the plot beside it."""
     print(text, end="")
-    folder.mkdir(parents=True, exist_ok=True)
     (folder / f"{name}.txt").write_text(text)
     return folder / f"{name}.png"
 

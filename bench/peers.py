@@ -24,7 +24,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from bars import COLOURS, Spread, draw_bars, mark
-from lammps_runs import HERE, keep_table, processor, stop, verdict
+from lammps_runs import HERE, count, keep_table, parse, processor, results_option, stop, verdict
 
 PARTICLES = 7980
 WARM = 100    # steps before the clock starts, for caches and pages
@@ -393,15 +393,18 @@ def draw(engines, parts, path):
 def arguments():
     """Command line."""
     parser = argparse.ArgumentParser(description="Measures what a contact costs in several codes.")
-    parser.add_argument("--repeat", type=int, default=5, help="runs of each case (default 5)")
-    parser.add_argument("--steps", type=int, default=1000, help="steps of a run (default 1000)")
+    parser.add_argument("--quick", action="store_true", help="one run of each case, 200 steps")
+    parser.add_argument("--repeat", type=count, default=5, help="runs of each case (default 5)")
+    parser.add_argument("--steps", type=count, default=1000, help="steps of a run (default 1000)")
     parser.add_argument("--lmp", default=HERE.parent / "lmp",
                         help="LAMMPS with APF (default ../lmp)")
     parser.add_argument("--liggghts", default="liggghts", help="LIGGGHTS (default liggghts)")
     parser.add_argument("--keep", type=Path, help="folder for the scenes and the last log")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for peers.txt and peers.png (default results, beside this)")
-    return parser.parse_args()
+    results_option(parser)
+    args = parse(parser)
+    if args.quick:
+        args.repeat, args.steps = 1, 200
+    return args
 
 
 def find_programs(args):

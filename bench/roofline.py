@@ -20,7 +20,7 @@ from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
-from lammps_runs import HERE, processor, prose, stop
+from lammps_runs import parse, processor, prose, results_option, stop
 
 SETS = ("baseline", "avx2", "avx512")
 # names in bench_kernel: adhesion, sliding, twisting, rolling of the kernel. Damping is no choice.
@@ -316,8 +316,8 @@ def arguments():
     source.add_argument("--draw", action="store_true", help="kernel.png anew from kernel.txt")
     parser.add_argument("--clock", type=float, metavar="GHZ", help="default: as measured, without --measure that of "
                         "/proc/cpuinfo")
-    parser.add_argument("--results", type=Path, default=HERE / "results", metavar="DIR")
-    args = parser.parse_args()
+    results_option(parser)
+    args = parse(parser)
     if args.draw:
         return args
     if not args.program or not args.program.is_file():
@@ -384,7 +384,6 @@ def main():
     text = report(args, times)
     print(text, end="")
     if times:
-        args.results.mkdir(parents=True, exist_ok=True)
         table.write_text(text)
         draw(text, plot)
 

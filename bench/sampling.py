@@ -15,7 +15,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 from bars import Spread, draw_bars
-from lammps_runs import HERE, keep_table, processor, prose, stop
+from lammps_runs import keep_table, parse, processor, prose, results_option, stop
 from roofline import SETS, measured, output
 
 PARTICLES = 102400    # of sampling.cpp
@@ -73,8 +73,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path, nargs="?", metavar="BENCH_SAMPLING")
     parser.add_argument("--times", type=Path, help="what it wrote with --benchmark_format=json")
-    parser.add_argument("--results", type=Path, default=HERE / "results", metavar="DIR")
-    args = parser.parse_args()
+    results_option(parser)
+    args = parse(parser)
     if not args.times and not (args.program and args.program.is_file()):
         stop(f"{args.program or 'BENCH_SAMPLING'}: not there; a build with -D APF_BENCH=on has "
              "bench_sampling")

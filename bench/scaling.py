@@ -27,8 +27,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
 
-from lammps_runs import (CHANNEL, HERE, Failure, check_log, environment, keep_table, lammps_command,
-                         processor, prose, read_log, stop, verdict)
+from lammps_runs import (CHANNEL, HERE, Failure, check_log, count, environment, keep_table, lammps_command,
+                         parse, processor, prose, read_log, results_option, stop, verdict)
 
 WARM = 5                        # particle steps before the clock starts
 SMALL, MORE = 2e4, 5            # clouds up to this size take a tenth of a second: so often in a round
@@ -318,15 +318,14 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="1e3 and 1e4 particles, few steps")
     parser.add_argument("--sizes", type=float, nargs="+",
                         help="particles of the clouds (default 1e4 1e5 1e6)")
-    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2],
+    parser.add_argument("--ranks", type=count, nargs="+", default=[1, 2],
                         help="MPI ranks (default 1 2); begins with 1")
-    parser.add_argument("--repeat", type=int, help="runs of each case (default 3)")
+    parser.add_argument("--repeat", type=count, help="runs of each case (default 3)")
     parser.add_argument("--time", type=float, help="end of the channel [L/U] (default 2)")
     parser.add_argument("--lmp", default=HERE.parent / "lmp",
                         help="LAMMPS with APF (default ../lmp)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for table and plot (default results, beside this)")
-    args = parser.parse_args()
+    results_option(parser)
+    args = parse(parser)
     full, quick = ([1e4, 1e5, 1e6], 3, 2.0), ([1e3, 1e4], 1, 0.1)
     for name, value in zip(("sizes", "repeat", "time"), quick if args.quick else full):
         if getattr(args, name) is None:

@@ -25,7 +25,7 @@ from pathlib import Path
 
 from channel_runs import channel_schemes, channel_set
 from impacts import damped_set, elastic_set
-from lammps_runs import HERE, Store, keep_table, stop
+from lammps_runs import HERE, Store, count, keep_table, parse, results_option, stop
 from speed_error_report import channel_text, draw_channel, draw_impacts, impact_text
 
 
@@ -39,19 +39,18 @@ def arguments():
     parser.add_argument("--time", type=float, help="end of the channel [L/U] (default 20)")
     parser.add_argument("--clock", type=float,
                         help="the channel's times are measured up to this one (default 2)")
-    parser.add_argument("--seeds", type=int, help="runs of each channel scheme (default 3)")
+    parser.add_argument("--seeds", type=count, help="runs of each channel scheme (default 3)")
     parser.add_argument("--schemes", nargs="+", choices=[s.name for s in channel_schemes()], metavar="NAME",
                         help="schemes of the channel that are run (default all)")
-    parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of the channel (default 1)")
-    parser.add_argument("--impacts", type=int, help="impacts of a scene (default 10000)")
-    parser.add_argument("--repeat", type=int, help="rounds in which times are measured (default 3)")
+    parser.add_argument("--ranks", type=count, default=1, help="MPI ranks of the channel (default 1)")
+    parser.add_argument("--impacts", type=count, help="impacts of a scene (default 10000)")
+    parser.add_argument("--repeat", type=count, help="rounds in which times are measured (default 3)")
     parser.add_argument("--lmp", default=HERE.parent / "lmp",
                         help="LAMMPS with APF (default ../lmp)")
     parser.add_argument("--work", type=Path, default=HERE.parent / "build-speed",
                         help="folder for results of runs (default ../build-speed)")
-    parser.add_argument("--results", type=Path, default=HERE / "results",
-                        help="folder for table and plot (default results, beside this)")
-    args = parser.parse_args()
+    results_option(parser)
+    args = parse(parser)
     full, quick = (20.0, 2.0, 3, 10000, 3), (0.5, 0.3, 1, 200, 1)
     names = ("time", "clock", "seeds", "impacts", "repeat")
     for name, value in zip(names, quick if args.quick else full):

@@ -2,9 +2,9 @@
 
 #include "argument_reader.h"
 #include "atom.h"
+#include "box_images.h"
 #include "comm.h"
 #include "contact_checks.h"
-#include "domain.h"
 #include "error.h"
 #include "fix_flow_field.h"
 #include "fix_flow_force.h"
@@ -93,25 +93,30 @@ void APFAdvise::find_sizes()
 
 void APFAdvise::find_motion(FixFlowField *field)
 {
-  double most[7] = {};    // speed; velocities of both signs
+  double fastest = 0.0;
+  apf::VelocityRange range;
   for (int i = 0; i < atom->nlocal; i++) {
-    const double *v = atom->v[i];
-    most[0] = std::max(most[0], MathExtra::len3(v));
+    fastest = std::max(fastest, MathExtra::len3(atom->v[i]));
+    range.include(atom->v[i]);
   }
-  std::fill(most + 1, most + 7, -1.0e300);
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int c = 0; c < 3; c++) {
-      most[1 + c] = std::max(most[1 + c], atom->v[i][c]);
-      most[4 + c] = std::max(most[4 + c], -atom->v[i][c]);
-    }
-  MPI_Allreduce(MPI_IN_PLACE, most, 7, MPI_DOUBLE, MPI_MAX, world);
-  const double width[3] = {most[1] + most[4], most[2] + most[5], most[3] + most[6]};
+  for (const auto &fix : modify->get_fix_list())
+    if (const auto *keeper = dynamic_cast<FixContacts *>(fix))
+      keeper->include_walls(range, update->dt);
+  MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, range.most, 6, MPI_DOUBLE, MPI_MAX, world);
   if (!speed_given) {
-    scene.U = most[0];
+    scene.U = fastest;
     if (field) scene.U = std::max(scene.U, fluid_at_particles(field).speed);
   }
-  scene.spread = atom->natoms > 0 ? MathExtra::len3(width) : 0.0;
-  scene.spread = std::max(scene.spread, scene.U);    // what is at rest now may come to move so
+  // what is at rest now may come to move so, and images across each face of the box do
+  scene.spread = std::max(range.spread({}), scene.U);
+  if (domain->deform_vremap)
+    for (int c = 0; c < 3; c++) {
+      double n[3] = {}, rate[3];
+      n[c] = 1.0;
+      sum_of_box_vectors(n, domain->h_rate, rate);
+      scene.spread = std::max(scene.spread, MathExtra::len3(rate));
+    }
   if (scene.U == 0.0)
     error->all(FLERR,
                "Command apf_advise finds no particle and no fluid at one that moves: add keyword "

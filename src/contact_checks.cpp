@@ -57,9 +57,17 @@ void check_direction(LAMMPS *lmp, const std::string &who)
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt)
 {
   const double kappa = mode.frequency * dt;
-  if (kappa <= apf::largest_stable_kappa || lmp->comm->me != 0) return;
+  if (kappa <= apf::accurate_kappa || lmp->comm->me != 0) return;
   const double n = std::round(lmp->update->dt / dt), good = apf::accurate_kappa / mode.frequency;
   const bool sub_steps = !lmp->modify->get_fix_by_style("^nve/sphere/mts").empty();
+  if (kappa <= apf::largest_stable_kappa) {
+    if (!sub_steps)    // its summary tells
+      utils::logmesg(lmp,
+                     "{}: omega dt = {:.3g} of the {} mode of a contact at rest; timestep {:.3g} "
+                     "gives {}\n",
+                     who, kappa, mode.name(), lmp->update->dt * good / dt, apf::accurate_kappa);
+    return;
+  }
   const std::string what = sub_steps ? fmt::format("collision step {:.4g}, timestep / {},", dt, n)
                                      : fmt::format("timestep {:.4g}", dt);
   const std::string cure = sub_steps

@@ -89,6 +89,11 @@ void FixContactHistory::share_velocities()
    sub-steps: the pair style has the contacts
 ------------------------------------------------------------------------- */
 
+bool FixContactHistory::slides() const
+{
+  return pair->slides();
+}
+
 void FixContactHistory::find_fastest(apf::LookAhead &ahead)
 {
   pair->find_fastest(ahead);

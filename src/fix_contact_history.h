@@ -34,6 +34,7 @@ class FixContactHistory : public FixContacts {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
 
+  bool slides() const override;
   void find_fastest(apf::LookAhead &) override;
   void find_approaching(apf::LookAhead &) override;
   bool find_near(apf::LookAhead &) override;

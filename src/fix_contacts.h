@@ -46,6 +46,7 @@ class FixContacts : public Fix {
   void count_into(double *counts) { add_counts(counts); }
 
   // ---- sub-steps of a particle step, for fix nve/sphere/mts
+  virtual bool slides() const = 0;    // has friction, which turns spin into speed
   // velocities of walls that particles here may touch within that time
   virtual void include_walls(apf::VelocityRange &, double /*time*/) const {}
   // the largest speed that contacts may bring about

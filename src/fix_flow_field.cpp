@@ -21,7 +21,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixFlowField::FixFlowField(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), density(0.0), viscosity(0.0), varies(false), evaluated(-1),
+    Fix(lmp, narg, arg), density(0.0), viscosity(0.0), varies(false), evaluated(never),
     evaluated_at(std::numeric_limits<double>::quiet_NaN())
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix flow/field", error);
@@ -78,7 +78,7 @@ void FixFlowField::init()
   int dim;
   for (const auto &fix : modify->get_fix_list())
     if (const auto *steps = static_cast<int *>(fix->extract("fluid_every", dim))) every = *steps;
-  evaluated = -1;
+  begins = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -125,9 +125,15 @@ void FixFlowField::pre_force_respa(int /*vflag*/, int /*ilevel*/, int /*iloop*/)
 
 void FixFlowField::evaluate()
 {
-  if (evaluated == update->ntimestep) return;
-  if (evaluated >= 0 && !grid && update->ntimestep % every) return;
-  evaluated = update->ntimestep;
+  const bigint now = update->ntimestep;
+  if (evaluated == now && !begins) return;
+  const bool begun = begins;    // a run: the script may have changed variables
+  begins = false;
+  if (!grid && now % every && now > evaluated && now - evaluated < every) {
+    if (begun) modify->addstep_compute_all((now / every + 1) * every);
+    return;
+  }
+  evaluated = now;
   if (grid) {
     grid->set_time(time());
     gridded = grid->flow();
@@ -248,17 +254,23 @@ void FixFlowField::write_restart(FILE *fp)
   if (comm->me != 0) return;
   RestartState::write(lmp, this,
                       {speed[0].value, speed[1].value, speed[2].value, speed[0].rate, speed[1].rate,
-                       speed[2].rate, evaluated_at},
+                       speed[2].rate, evaluated_at, static_cast<double>(evaluated)},
                       fp);
 }
 
 void FixFlowField::restart(char *buffer)
 {
   RestartState state(lmp, this, buffer);
-  for (auto &s : speed) s.value = state.next();
+  for (auto &s : speed) {
+    const double value = state.next();
+    if (!s.variable.empty()) s.value = value;
+  }
   for (auto &s : speed) s.rate = state.next();
   evaluated_at = state.next();
+  evaluated = static_cast<bigint>(state.next());
   state.end();
+  set_speed(flow, &Speed::value);
+  set_speed(change, &Speed::rate);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -78,7 +78,9 @@ class FixFlowField : public Fix {
   bool varies;
   bool taken = false;     // somebody will sample the flow in this run
   bool warned = false;    // that nobody does
-  bigint evaluated;       // time step of the variables' values, in this run
+  bool begins = false;    // nothing has been evaluated in this run yet
+  static constexpr bigint never = -1000000000;
+  bigint evaluated;       // time step of the variables' values
   double evaluated_at;    // and their time; not a number if there are none yet
   int every = 1;          // time steps of a fluid step
 

@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "atom_rows.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
 #include "fix_flow_force.h"
@@ -36,7 +37,7 @@ FixNVESphereMTS::~FixNVESphereMTS()
 
 int FixNVESphereMTS::setmask()
 {
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_NEIGHBOR | POST_RUN;
+  return INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE | POST_NEIGHBOR | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -97,6 +98,13 @@ void FixNVESphereMTS::initial_integrate(int /*vflag*/)
   drift_free();
   sub_step_active();
   std::copy_n(foresight.ahead.activity.begin(), atom->nlocal + atom->nghost, activity.begin());
+}
+
+// Forces at the end of a step are those of the box at its end, to which fix deform brings it only
+// after them: else a run that begins, whose box is where it is, would see images jump.
+void FixNVESphereMTS::pre_force(int)
+{
+  if (domain->deform_flag) foresight.move_images(update->dt);
 }
 
 // Every particle gets the kick of half the step with which it moved last.

@@ -41,6 +41,7 @@ class FixNVESphereMTS : public Fix {
     foresight.share(activity);    // ghosts are new
   }
   void initial_integrate(int) override;
+  void pre_force(int) override;
   void final_integrate() override;
   void post_run() override;
   double compute_vector(int) override;

@@ -114,6 +114,7 @@ void FixWallLevelset::init()
   check_units(lmp, command);
   check_direction(lmp, fmt::format("{} {}", command, id));
   motion.init();
+  rebuild = true;    // atoms may have come, gone or moved since the last run
   ledger.init(fmt::format("{} {}", command, id));
   aggregates = ComputeAggregateContact::of_all(lmp, force->pair);
   rigid = nullptr;

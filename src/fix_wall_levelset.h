@@ -41,6 +41,7 @@ class FixWallLevelset : public FixContacts {
   int image(int *&, double **&) override;
   double memory_usage() override;
 
+  bool slides() const override { return coefficient.model.sliding(); }
   void include_walls(apf::VelocityRange &, double time) const override;
   void find_fastest(apf::LookAhead &) override;
   void find_approaching(apf::LookAhead &) override;

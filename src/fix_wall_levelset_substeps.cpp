@@ -26,7 +26,8 @@ void FixWallLevelset::include_walls(apf::VelocityRange &range, double time) cons
     const auto v = motion.pose.velocity_at(atom->x[i]);
     const double there[3] = {v.x, v.y, v.z};
     const double far = atom->radius[i] + neighbor->skin + time * MathExtra::len3(there);
-    if (!far_from_all(i, far)) range.include(there, turning * far);
+    const bool away = rebuild ? distance(atom->x[i]) > far : far_from_all(i, far);
+    if (!away) range.include(there, turning * far);
   }
 }
 

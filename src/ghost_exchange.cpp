@@ -1,8 +1,8 @@
 #include "ghost_exchange.h"
 
-#include "domain.h"
+#include "box_images.h"
 
-#include <cmath>
+#include <algorithm>
 
 using namespace LAMMPS_NS;
 
@@ -19,19 +19,6 @@ template <class Row> double *pack_motion(const Row &row, double *buf)
   for (const double c : row.v) *buf++ = c;
   for (const double c : row.omega) *buf++ = c;
   return buf;
-}
-
-// The box lengths that lie between an atom and its image.
-void image_shift(const Domain *domain, const double *atom, const double *image, double *shift)
-{
-  double d[3];
-  for (int c = 0; c < 3; c++) d[c] = image[c] - atom[c];
-  const double nz = std::round(d[2] / domain->zprd);
-  const double ny = std::round((d[1] - nz * domain->yz) / domain->yprd);
-  const double nx = std::round((d[0] - nz * domain->xz - ny * domain->xy) / domain->xprd);
-  shift[0] = nx * domain->xprd + ny * domain->xy + nz * domain->xz;
-  shift[1] = ny * domain->yprd + nz * domain->yz;
-  shift[2] = nz * domain->zprd;
 }
 
 }    // namespace
@@ -69,7 +56,7 @@ void GhostExchange::set_owners(int nlocal, std::vector<int> rank, std::vector<in
 
 /* ---------------------------------------------------------------------- */
 
-void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, bool shift_velocity,
+void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, double step,
                            const apf::Bodies &bodies, std::vector<char> &wanted)
 {
   chosen.clear();
@@ -113,12 +100,15 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
     bodies.motion(i, buf + 3, omega);
   };
   auto compare = [&](Image &image, const double *owner) {
-    double ghost[6];
+    double ghost[6], n[3], now[3], rate[3] = {};
     motion(image.ghost, ghost);
-    image_shift(domain, owner, ghost, image.shift);
+    image_number(domain, owner, ghost, n);
+    sum_of_box_vectors(n, domain->h, now);
+    if (domain->deform_flag) sum_of_box_vectors(n, domain->h_rate, rate);
     for (int c = 0; c < 3; c++) {
-      image.dv[c] = shift_velocity ? ghost[3 + c] - owner[3 + c] : 0.0;
-      image.behind[c] = domain->box_change ? image.shift[c] - (ghost[c] - owner[c]) : 0.0;
+      image.shift[c] = now[c] + step * rate[c];
+      image.to_come[c] = domain->box_change ? image.shift[c] - (ghost[c] - owner[c]) : 0.0;
+      image.dv[c] = domain->deform_vremap ? ghost[3 + c] - owner[3 + c] : 0.0;
     }
   };
   for (auto &p : partners) {
@@ -183,7 +173,7 @@ template <class Row> int GhostExchange::forward(Row *rows, double left)
   start(tag_forward);
   auto place = [rows, left](const Image &image, const double *buf) {
     Row &row = rows[image.ghost];
-    for (int c = 0; c < Row::dim; c++) row.x[c] = *buf++ + image.shift[c] - left * image.behind[c];
+    for (int c = 0; c < Row::dim; c++) row.x[c] = *buf++ + image.shift[c] - left * image.to_come[c];
     for (int c = 0; c < Row::dim; c++) row.v[c] = *buf++ + image.dv[c];
     for (double &c : row.omega) c = *buf++;
   };

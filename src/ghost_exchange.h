@@ -21,14 +21,14 @@ class GhostExchange {
   // Owners of ghosts nlocal .. nlocal+nghost-1: rank and local index. Collective.
   void set_owners(int nlocal, std::vector<int> rank, std::vector<int> index);
 
-  // Ghosts to keep up to date: those with used[row] != 0. x: positions of local and ghost atoms;
-  // owners learn which of their atoms are wanted and mark these in wanted[row]. Collective.
-  void choose(const std::vector<char> &used, const Domain *domain, bool shift_velocity,
+  // Ghosts to keep up to date: those with used[row] != 0. Owners learn which of their atoms are
+  // wanted and mark these in wanted[row]. step: the particle step, in which images of a box that
+  // changes move on to where it will have them. Collective.
+  void choose(const std::vector<char> &used, const Domain *domain, double step,
               const apf::Bodies &bodies, std::vector<char> &wanted);
 
   // owners' positions and velocities go to ghosts; collective. left: share of the particle step to
-  // come: in a box that changes images move on from where they stood to where the box has them now.
-  // Returns how many ghosts here it has brought up to date.
+  // come. Returns how many ghosts here it has brought up to date.
   template <class Row> int forward(Row *rows, double left);
   // loads of ghosts are added to those of their owners, and cleared; collective
   template <class Row> void reverse(Row *rows);
@@ -40,8 +40,8 @@ class GhostExchange {
  private:
   struct Image {
     int ghost;                 // row here
-    double shift[3], dv[3];    // from the owner, as the box is now
-    double behind[3];          // of the shift as it was; 0 in a box that does not change
+    double shift[3], dv[3];    // from the owner, at the end of the particle step
+    double to_come[3];         // of the shift within it; 0 in a box that does not change
   };
   struct Partner {
     int rank;

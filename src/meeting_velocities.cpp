@@ -3,8 +3,10 @@
 #include "atom.h"
 #include "domain.h"
 #include "fix_contacts.h"
+#include "fmt/format.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -39,6 +41,16 @@ double MeetingVelocities::spread() const
   auto all = bodies;
   all.include(walls);
   return all.spread(images);
+}
+
+std::string MeetingVelocities::cure(double spread, double acceleration, double skin, double enough)
+{
+  const double way = 0.4 * skin;    // of the step to advise
+  const std::string other = fmt::format("neighbor {:.2g} bin or larger", enough);
+  if (way <= 0.0) return "use " + other;
+  return fmt::format("use timestep {:.2g} or smaller, or {}",
+                     2.0 * way / (spread + std::sqrt(spread * spread + 4.0 * acceleration * way)),
+                     other);
 }
 
 double MeetingVelocities::fastest(const double *in) const

@@ -7,6 +7,7 @@
 #include "contact/bodies.h"
 #include "timestep/look_ahead.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -34,6 +35,10 @@ class MeetingVelocities {
   void frame(double *v) const { (walls.empty() ? bodies : walls).middle(v); }
   double fastest(const double *in) const;    // of particles and images in a frame
   double fastest_wall(const double *in) const { return walls.farthest_from(in); }
+
+  // what a script may change if bodies with this spread and acceleration approach farther in a
+  // timestep than the neighbor skin lets them be seen; enough: of the skin
+  static std::string cure(double spread, double acceleration, double skin, double enough);
 
  private:
   apf::VelocityRange bodies, images, walls;

@@ -140,6 +140,14 @@ void PairGranularAdhesive::detect(bool all, double step)
    sub-steps of a particle step
 ------------------------------------------------------------------------- */
 
+bool PairGranularAdhesive::slides() const
+{
+  for (const auto &of_type : coefficients)
+    for (const auto &coeff : of_type)
+      if (coeff.model.sliding()) return true;
+  return false;
+}
+
 void PairGranularAdhesive::find_fastest(apf::LookAhead &ahead)
 {
   store->bodies().with_rows([&](const auto *rows) {

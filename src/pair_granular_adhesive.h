@@ -54,6 +54,7 @@ class PairGranularAdhesive : public Pair {
   const ContactCoeff &coeff_of_types(int i, int j) const { return coefficients[i][j]; }
 
   // sub-steps of a particle step, see FixContacts
+  bool slides() const;
   void find_fastest(apf::LookAhead &);
   void find_approaching(apf::LookAhead &);
   bool find_near(apf::LookAhead &);

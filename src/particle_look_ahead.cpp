@@ -2,8 +2,8 @@
 
 #include "atom.h"
 #include "atom_rows.h"
+#include "box_images.h"
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
 #include "force.h"
@@ -35,12 +35,38 @@ void ParticleLookAhead::init(FixContactHistory *of_pairs, const std::vector<FixC
   freeze_group_bit = frozen;
   history = of_pairs;
   keepers = all;
+  friction = std::any_of(keepers.begin(), keepers.end(), [](const FixContacts *keeper) {
+    return keeper->slides();
+  });
 }
 
 void ParticleLookAhead::list_was_built()
 {
   owners_known = false;
   x_built.assign(&atom->x[0][0], &atom->x[0][0] + 3 * static_cast<size_t>(atom->nlocal));
+  if (domain->deform_flag) number_images();
+}
+
+void ParticleLookAhead::number_images()
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  image_numbers.resize(nall);
+  for (int i = 0; i < nlocal; i++) std::copy_n(atom->x[i], 3, image_numbers[i].begin());
+  message = Message::POSITIONS;
+  comm->forward_comm(carrier, 3);
+  for (int i = nlocal; i < nall; i++) {
+    const auto of_owner = image_numbers[i];
+    image_number(domain, of_owner.data(), atom->x[i], image_numbers[i].data());
+  }
+}
+
+void ParticleLookAhead::move_images(double time)
+{
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
+    double rate[3];
+    sum_of_box_vectors(image_numbers[i].data(), domain->h_rate, rate);
+    for (int c = 0; c < 3; c++) atom->x[i][c] += time * rate[c];
+  }
 }
 
 void ParticleLookAhead::share(std::vector<char> &activity)
@@ -60,7 +86,7 @@ bool ParticleLookAhead::look(double slow_largest)
   find_active();
   if (!owners_known) know_owners();
   std::vector<char> wanted(atom->nlocal, 0);
-  exchange.choose(ahead.used, domain, domain->deform_vremap, history->bodies(), wanted);
+  exchange.choose(ahead.used, domain, update->dt, history->bodies(), wanted);
   for (int i = 0; i < atom->nlocal; i++)
     if (wanted[i]) come_near(i);
   return rebuild;
@@ -90,7 +116,7 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
       held = true;
     }
     const double r = atom->radius[i];
-    spin2 = std::max(spin2, r * r * MathExtra::lensq3(omegas[i]));
+    if (friction) spin2 = std::max(spin2, r * r * MathExtra::lensq3(omegas[i]));
     const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
     displacement2 = std::max(displacement2, MathExtra::lensq3(moved));
     const double f2 = MathExtra::lensq3(fs[i]), torque2 = MathExtra::lensq3(torques[i]);
@@ -150,17 +176,13 @@ bool ParticleLookAhead::set_reach(const Extremes &now)
       std::max(lookahead_safety * now.spread, (1.0 + ahead.amplify) * ahead.limit);
   const double distance = on ? longest * dt + ahead.reach * ahead.extra : 0.0;
   const bool pairs = on && atom->natoms > 1;    // a single particle needs no list for its walls
-  if (pairs && fastest * dt > skin) {
-    // by speed and acceleration the way of this step is 0.4 of the skin
-    const double way = 0.4 * skin, v = now.spread, a = now.acceleration;
+  if (pairs && fastest * dt > skin)
     error->all(FLERR, Error::NOLASTLINE,
                "{} {}: bodies whose velocities differ by {:.3g}, and that gain up to {:.3g}, may "
                "approach by {:.3g} in a timestep of {:.3g}, farther than the neighbor skin of "
-               "{:.3g} lets contacts be seen: use timestep {:.2g} or smaller, or neighbor {:.2g} "
-               "bin or larger",
-               command, carrier->id, v, ahead.extra, fastest * dt, dt, skin,
-               2.0 * way / (v + std::sqrt(v * v + 4.0 * a * way)), 1.2 * distance);
-  }
+               "{:.3g} lets contacts be seen: {}",
+               command, carrier->id, now.spread, ahead.extra, fastest * dt, dt, skin,
+               MeetingVelocities::cure(now.spread, now.acceleration, skin, 1.2 * distance));
   if (pairs && distance > skin) {
     const double less = skin / distance;
     ahead.reach *= less;
@@ -271,6 +293,8 @@ int ParticleLookAhead::pack_forward(int n, const int *list, double *buf) const
       *buf++ = (*shared)[i];
     } else if (message == Message::ACCELERATION) {
       *buf++ = ahead.acceleration[i];
+    } else if (message == Message::POSITIONS) {
+      buf = std::copy_n(image_numbers[i].begin(), 3, buf);
     } else {
       *buf++ = owner_rank[i];
       *buf++ = owner_row[i];
@@ -288,6 +312,9 @@ void ParticleLookAhead::unpack_forward(int n, int first, const double *buf)
       (*shared)[i] = static_cast<char>(*buf++);
     } else if (message == Message::ACCELERATION) {
       ahead.acceleration[i] = *buf++;
+    } else if (message == Message::POSITIONS) {
+      std::copy_n(buf, 3, image_numbers[i].begin());
+      buf += 3;
     } else {
       owner_rank[i] = static_cast<int>(*buf++);
       owner_row[i] = static_cast<int>(*buf++);
@@ -321,5 +348,6 @@ void ParticleLookAhead::unpack_reverse(int n, const int *list, const double *buf
 double ParticleLookAhead::memory_usage() const
 {
   return ahead.activity.capacity() + ahead.used.capacity() +
-      (ahead.acceleration.capacity() + x_built.capacity()) * sizeof(double);
+      (ahead.acceleration.capacity() + x_built.capacity() + 3 * image_numbers.capacity()) *
+      sizeof(double);
 }

@@ -8,13 +8,14 @@
 #include "pointers.h"
 #include "timestep/look_ahead.h"
 
+#include <array>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 class ParticleLookAhead : protected Pointers {
  public:
-  static constexpr int forward_size = 2, reverse_size = 6;    // doubles per atom of messages
+  static constexpr int forward_size = 3, reverse_size = 6;    // doubles per atom of messages
 
   // messages go through that fix; off: only particles that touch take part
   ParticleLookAhead(LAMMPS *lmp, class Fix *carrier, const char *command);
@@ -25,6 +26,8 @@ class ParticleLookAhead : protected Pointers {
   void begin_run() { warned_of_skin = false; }
   void list_was_built();                      // rows are new
   void share(std::vector<char> &activity);    // with ghosts, as owners know it; collective
+  // ghosts, which LAMMPS puts where a box that fix deform moves was when the step began
+  void move_images(double time);
 
   // Looks at a particle step. slow_largest: acceleration of sub-stepped atoms here. Returns whether
   // the neighbour list must be built anew at the end of the step. Collective.
@@ -49,13 +52,17 @@ class ParticleLookAhead : protected Pointers {
   class FixContactHistory *history = nullptr;
   int freeze_group_bit = 0;
   std::vector<class FixContacts *> keepers;
+  bool friction = false;    // of any contact that there may be
   bool warned_of_skin = false;
 
   std::vector<double> x_built;    // positions when the neighbour list was built, [atoms][3]
   bool owners_known = false;
   std::vector<int> owner_rank, owner_row;    // of local and ghost atoms, while these are told
   std::vector<char> *shared = nullptr;       // while it is told
-  enum class Message { OWNERS, ACTIVITY, SHARED, ACCELERATION, LOADS } message = Message::OWNERS;
+  // box vectors from owners to ghosts; of owners, and while these tell it, positions
+  std::vector<std::array<double, 3>> image_numbers;
+  enum class Message { OWNERS, ACTIVITY, SHARED, ACCELERATION, POSITIONS, LOADS };
+  Message message = Message::OWNERS;
 
   // global maxima at the start of a particle step
   struct Extremes {
@@ -73,6 +80,7 @@ class ParticleLookAhead : protected Pointers {
   void find_active();
   void share_activity();
   void know_owners();
+  void number_images();
 };
 
 }    // namespace LAMMPS_NS

@@ -51,17 +51,13 @@ bool RespaLists::too_old_for_step(bool kicked, const apf::Bodies &rows,
 
   const double dt = update->dt, skin = neighbor->skin;
   const double v = velocities.spread(), a = std::sqrt(most[0]), approach = (v + a * dt) * dt;
-  if (atom->natoms > 1 && approach > skin) {
-    // by speed and acceleration the way of this step is 0.4 of the skin
-    const double way = 0.4 * skin;
+  if (atom->natoms > 1 && approach > skin)
     error->all(FLERR, Error::NOLASTLINE,
                "{}: bodies whose velocities differ by {:.3g}, and that gain up to {:.3g}, may "
                "approach by {:.3g} in a timestep of {:.3g} of run_style respa, farther than the "
-               "neighbor skin of {:.3g} lets contacts be seen: use timestep {:.2g} or smaller, or "
-               "neighbor {:.2g} bin or larger",
+               "neighbor skin of {:.3g} lets contacts be seen: {}",
                command, v, a * dt, approach, dt, skin,
-               2.0 * way / (v + std::sqrt(v * v + 4.0 * a * way)), 1.2 * struck * approach);
-  }
+               MeetingVelocities::cure(v, a, skin, 1.2 * struck * approach));
   return domain->box_change_size || domain->box_change_shape ||
       2.0 * std::sqrt(most[1]) + struck * approach > skin;
 }

@@ -64,6 +64,7 @@ void WallMotion::init()
         error->all(FLERR, Error::NOLASTLINE, "{} move: variable {} must be of equal style", command,
                    speed.variable);
     }
+  if (!varies) take_speeds();
 }
 
 void WallMotion::take_speeds()

@@ -30,6 +30,8 @@ const std::string commands[] = {
     "--times last "
     "--scale 1.0",
     "mesh.vti out.vtkhdf --spacing 0.5 --planar 1.0 --times all",
+    "mesh.vti out.vtkhdf --spacing 0.5 --distance --particle 0.3",
+    "grid.x out.vtkhdf --solution flow.q --spacing 0.25",
     "mesh.vti out.vtkhdf --spacing 0.5 --shape a:cylinder(1,1,0,1,1,2,0.3) --fluid-at 0.1 0.1 0.1",
     "out.vtkhdf --spacing 0.5 --bounds -1 1 -1 1 -1 1 --shape a:sphere(0,0,0,0.6) --exact 0.5 "
     "--band 6 "
@@ -44,7 +46,7 @@ const std::string commands[] = {
     "0.9 0.9 0.9",
 };
 
-// a tetrahedron, and a cube of eight cells whose velocity is (y, 0, 0)
+// a tetrahedron, a cube of eight cells whose velocity is (y, 0, 0), and two cells of PLOT3D
 void write_inputs()
 {
   std::ofstream stl("solid.stl"), vti("mesh.vti");
@@ -67,6 +69,9 @@ void write_inputs()
   vti << "</DataArray><DataArray type=\"Float64\" Name=\"p\" format=\"ascii\">";
   for (int k = 0; k < 27; k++) vti << k % 3 << ' ';
   vti << "</DataArray></PointData></Piece></ImageData></VTKFile>";
+  std::ofstream("grid.x") << "3 2\n0 1 2 0 1 2\n0 0 0 1 1 1\n";
+  std::ofstream("flow.q") << "3 2\n0.5 0 1 0\n2 2 2 2 2 2\n2 2 2 4 4 4\n0 -1 -2 0 -1 -2\n"
+                             "9 9 9 9 9 9\n";
 }
 
 const std::string before = "was there before";

@@ -105,7 +105,7 @@ TEST(RanksFaults, size_ratio_of_a_thousand)
   }
 }
 
-TEST(RanksFaults, lost_particles_are_named_by_lammps)
+TEST(RanksFaults, lost_particles_end_the_run)
 {
   for (const auto &integrator : integrators) {
     Simulation sim;

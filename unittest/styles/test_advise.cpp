@@ -147,6 +147,28 @@ TEST(Advise, says_what_to_change)
   EXPECT_NE(text.find("change: neighbor"), std::string::npos) << text;
 }
 
+// Two timesteps of what arrives fastest, and a fifth more: a wall, or images of a sheared box.
+TEST(Advise, skin_counts_walls_and_images_that_move)
+{
+  const double step = 0.01, speed = 3.0;
+  const std::string law = " jkr 2e6 0.25 0 ";
+  auto least_skin = [&](const std::string &words) {
+    Scene scene;
+    scene.boundary = "f p p";
+    scene.style = "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
+    Simulation sim;
+    build(sim, {{0.6, 4.0, 4.0}, {4.0, 4.0, 4.0}}, scene);
+    sim.run(words + "\nfix nve all nve/sphere/mts collision auto\ntimestep " + digits(step));
+    return after(advice(sim, "speed 0.5"), "neighbor skin").at(1);
+  };
+  const std::string wall = "fix w all wall/levelset plane x 0 NULL" + law;
+  EXPECT_NEAR(least_skin(wall), 2.4 * 0.5 * step, 1e-9);
+  EXPECT_NEAR(least_skin(wall + "move linear " + digits(speed) + " 0 0"), 2.4 * speed * step, 1e-9);
+  EXPECT_NEAR(least_skin("change_box all triclinic\nfix flow all deform 1 yz erate " +
+                         digits(speed / 8.0) + " remap v"),
+              2.4 * speed * step, 1e-9);
+}
+
 TEST(Advise, has_nothing_to_change_in_a_good_scene)
 {
   Simulation sim;

@@ -256,6 +256,13 @@ TEST(PairWarnings, timestep_names_the_mode_and_one_that_does)
     EXPECT_GT(good, 0.0) << text;
     EXPECT_EQ(log(std::to_string(good)).find("WARNING"), std::string::npos) << row.law;
     EXPECT_EQ(log(std::to_string(2.6 * good)).find("WARNING"), std::string::npos) << row.law;
+    // between what is accurate and what is stable a line tells
+    EXPECT_EQ(log(std::to_string(0.98 * good)).find("omega dt"), std::string::npos) << row.law;
+    const auto rough = log(std::to_string(2.0 * good));
+    expect_words(
+        rough,
+        {row.law, {"Pair granular/adhesive: omega dt = 0.", "of the " + row.mode + " mode"}});
+    EXPECT_NEAR(number_before(rough, " gives 0.3") / good, 1.0, 0.01);
     EXPECT_NE(log(std::to_string(2.8 * good)).find("WARNING"), std::string::npos) << row.law;
   }
 }

@@ -234,6 +234,9 @@ TEST(MtsErrors, skin_that_is_too_thin_for_what_it_must_see)
   expect_words(sim.error_of("neighbor 0.045 bin\n" + mts(8) + "run 1"),
                {name, "differ by 100", "approach by 0.0488", "skin of 0.045",
                 "timestep 0.00018 or smaller", "neighbor 0.12 bin or larger"});
+  const auto none = sim.error_of("neighbor 0 bin\nrun 1");    // no timestep suits it
+  expect_words(none, {"skin of 0 lets contacts be seen: use neighbor 0.12 bin or larger"});
+  EXPECT_EQ(none.find("or smaller"), std::string::npos) << none;
 
   // at rest, with the acceleration a: a step of sqrt(0.4 skin / a)
   Simulation pushed;

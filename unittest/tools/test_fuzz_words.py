@@ -20,7 +20,20 @@ def words_of(page):
     return {word for found in words for word in found.split() if len(word) > 1}
 
 
+def read(name):
+    """Text of a file of the checkout."""
+    with open(os.path.join(root, name)) as file:
+        return file.read()
+
+
 class Words(unittest.TestCase):
+    def test_all_options_of_flowgrid_are_tried(self):
+        syntax = read("doc/src/flowgrid.rst").split("* options:")[1].split("Examples")[0]
+        options = set(re.findall(r"^ +(--[a-z-]+)", syntax, re.M))
+        tried = set(re.findall(r"--[a-z-]+", read("unittest/fuzz/fuzz_flowgrid.cpp").split("const std::string commands")[1]))
+        self.assertGreater(len(options), 15)
+        self.assertEqual(options - tried, {"--wall"})    # of an OpenFOAM case, which is many files
+
     def test_all_words_of_the_pages_are_tried(self):
         with open(root + "/unittest/fuzz/commands.h") as file:
             text = re.sub(r'"\s*\n\s*"', "", file.read())    # one command may be several strings
