@@ -91,32 +91,45 @@ void APFAdvise::find_sizes()
                "Command apf_advise needs particles, or a fix inlet/flow that will insert some");
 }
 
+// velocities of its images across those faces of the box that it is near
+void APFAdvise::include_images(int i, apf::VelocityRange &images) const
+{
+  double at[3];
+  domain->x2lamda(atom->x[i], at);
+  for (int c = 0; c < 3; c++) {
+    const double near = (2.0 * atom->radius[i] + neighbor->skin) / domain->prd[c];
+    double n[3] = {}, rate[3];
+    n[c] = 1.0;
+    sum_of_box_vectors(n, domain->h_rate, rate);
+    for (const double sign : {1.0, -1.0}) {
+      if (!domain->periodicity[c] || (sign > 0.0 ? at[c] : 1.0 - at[c]) > near) continue;
+      double v[3];
+      for (int k = 0; k < 3; k++) v[k] = atom->v[i][k] + sign * rate[k];
+      images.include(v);
+    }
+  }
+}
+
 void APFAdvise::find_motion(FixFlowField *field)
 {
   double fastest = 0.0;
-  apf::VelocityRange range;
+  apf::VelocityRange range, images;
   for (int i = 0; i < atom->nlocal; i++) {
     fastest = std::max(fastest, MathExtra::len3(atom->v[i]));
     range.include(atom->v[i]);
+    if (domain->deform_vremap) include_images(i, images);
   }
   for (const auto &fix : modify->get_fix_list())
     if (const auto *keeper = dynamic_cast<FixContacts *>(fix))
       keeper->include_walls(range, update->dt);
   MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, range.most, 6, MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, images.most, 6, MPI_DOUBLE, MPI_MAX, world);
   if (!speed_given) {
     scene.U = fastest;
     if (field) scene.U = std::max(scene.U, fluid_at_particles(field).speed);
   }
-  // what is at rest now may come to move so, and images across each face of the box do
-  scene.spread = std::max(range.spread({}), scene.U);
-  if (domain->deform_vremap)
-    for (int c = 0; c < 3; c++) {
-      double n[3] = {}, rate[3];
-      n[c] = 1.0;
-      sum_of_box_vectors(n, domain->h_rate, rate);
-      scene.spread = std::max(scene.spread, MathExtra::len3(rate));
-    }
+  scene.spread = std::max(range.spread(images), scene.U);    // what is at rest may come to move so
   if (scene.U == 0.0)
     error->all(FLERR,
                "Command apf_advise finds no particle and no fluid at one that moves: add keyword "

@@ -46,6 +46,7 @@ class APFAdvise : public Command {
   void parse(int narg, char **arg);
   void find_sizes();
   void find_motion(class FixFlowField *);
+  void include_images(int i, apf::VelocityRange &) const;
   Fluid fluid_at_particles(class FixFlowField *) const;
   void find_length();
   void advise_contacts(class PairGranularAdhesive *);

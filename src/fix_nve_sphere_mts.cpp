@@ -37,7 +37,7 @@ FixNVESphereMTS::~FixNVESphereMTS()
 
 int FixNVESphereMTS::setmask()
 {
-  return INITIAL_INTEGRATE | PRE_FORCE | FINAL_INTEGRATE | POST_NEIGHBOR | POST_RUN;
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | PRE_NEIGHBOR | POST_NEIGHBOR | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -100,11 +100,12 @@ void FixNVESphereMTS::initial_integrate(int /*vflag*/)
   std::copy_n(foresight.ahead.activity.begin(), atom->nlocal + atom->nghost, activity.begin());
 }
 
-// Forces at the end of a step are those of the box at its end, to which fix deform brings it only
-// after them: else a run that begins, whose box is where it is, would see images jump.
-void FixNVESphereMTS::pre_force(int)
+// Lists and forces at the end of a step are those of the box at its end, to which fix deform brings
+// it only after them: else a run that begins, whose box is where it is, would see images jump. In a
+// box that changes lists are made at each step.
+void FixNVESphereMTS::pre_neighbor()
 {
-  if (domain->deform_flag) foresight.move_images(update->dt);
+  if (images_lag) foresight.move_images(update->dt);
 }
 
 // Every particle gets the kick of half the step with which it moved last.

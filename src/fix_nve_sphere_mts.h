@@ -40,8 +40,8 @@ class FixNVESphereMTS : public Fix {
     foresight.list_was_built();
     foresight.share(activity);    // ghosts are new
   }
+  void pre_neighbor() override;
   void initial_integrate(int) override;
-  void pre_force(int) override;
   void final_integrate() override;
   void post_run() override;
   double compute_vector(int) override;
@@ -98,6 +98,7 @@ class FixNVESphereMTS : public Fix {
   std::vector<class FixContacts *> keepers;
   std::vector<class FixFlowForce *> fluids;
   int freeze_group_bit = 0;
+  bool images_lag = false;    // LAMMPS has them where the box was when the step began
 
   struct Totals {    // of a run, for the summary
     bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0;

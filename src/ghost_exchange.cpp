@@ -104,7 +104,7 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
     motion(image.ghost, ghost);
     image_number(domain, owner, ghost, n);
     sum_of_box_vectors(n, domain->h, now);
-    if (domain->deform_flag) sum_of_box_vectors(n, domain->h_rate, rate);
+    if (domain->deform_vremap) sum_of_box_vectors(n, domain->h_rate, rate);
     for (int c = 0; c < 3; c++) {
       image.shift[c] = now[c] + step * rate[c];
       image.to_come[c] = domain->box_change ? image.shift[c] - (ghost[c] - owner[c]) : 0.0;

@@ -44,27 +44,19 @@ void ParticleLookAhead::list_was_built()
 {
   owners_known = false;
   x_built.assign(&atom->x[0][0], &atom->x[0][0] + 3 * static_cast<size_t>(atom->nlocal));
-  if (domain->deform_flag) number_images();
-}
-
-void ParticleLookAhead::number_images()
-{
-  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
-  image_numbers.resize(nall);
-  for (int i = 0; i < nlocal; i++) std::copy_n(atom->x[i], 3, image_numbers[i].begin());
-  message = Message::POSITIONS;
-  comm->forward_comm(carrier, 3);
-  for (int i = nlocal; i < nall; i++) {
-    const auto of_owner = image_numbers[i];
-    image_number(domain, of_owner.data(), atom->x[i], image_numbers[i].data());
-  }
 }
 
 void ParticleLookAhead::move_images(double time)
 {
-  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
-    double rate[3];
-    sum_of_box_vectors(image_numbers[i].data(), domain->h_rate, rate);
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  position_of_owner.resize(nall);
+  for (int i = 0; i < nlocal; i++) std::copy_n(atom->x[i], 3, position_of_owner[i].begin());
+  message = Message::POSITIONS;
+  comm->forward_comm(carrier, 3);
+  for (int i = nlocal; i < nall; i++) {
+    double n[3], rate[3];
+    image_number(domain, position_of_owner[i].data(), atom->x[i], n);
+    sum_of_box_vectors(n, domain->h_rate, rate);
     for (int c = 0; c < 3; c++) atom->x[i][c] += time * rate[c];
   }
 }
@@ -294,7 +286,7 @@ int ParticleLookAhead::pack_forward(int n, const int *list, double *buf) const
     } else if (message == Message::ACCELERATION) {
       *buf++ = ahead.acceleration[i];
     } else if (message == Message::POSITIONS) {
-      buf = std::copy_n(image_numbers[i].begin(), 3, buf);
+      buf = std::copy_n(position_of_owner[i].begin(), 3, buf);
     } else {
       *buf++ = owner_rank[i];
       *buf++ = owner_row[i];
@@ -313,7 +305,7 @@ void ParticleLookAhead::unpack_forward(int n, int first, const double *buf)
     } else if (message == Message::ACCELERATION) {
       ahead.acceleration[i] = *buf++;
     } else if (message == Message::POSITIONS) {
-      std::copy_n(buf, 3, image_numbers[i].begin());
+      std::copy_n(buf, 3, position_of_owner[i].begin());
       buf += 3;
     } else {
       owner_rank[i] = static_cast<int>(*buf++);
@@ -348,6 +340,6 @@ void ParticleLookAhead::unpack_reverse(int n, const int *list, const double *buf
 double ParticleLookAhead::memory_usage() const
 {
   return ahead.activity.capacity() + ahead.used.capacity() +
-      (ahead.acceleration.capacity() + x_built.capacity() + 3 * image_numbers.capacity()) *
+      (ahead.acceleration.capacity() + x_built.capacity() + 3 * position_of_owner.capacity()) *
       sizeof(double);
 }

@@ -26,7 +26,7 @@ class ParticleLookAhead : protected Pointers {
   void begin_run() { warned_of_skin = false; }
   void list_was_built();                      // rows are new
   void share(std::vector<char> &activity);    // with ghosts, as owners know it; collective
-  // ghosts, which LAMMPS puts where a box that fix deform moves was when the step began
+  // ghosts that are new, from where they are now, as fix deform moves the box; collective
   void move_images(double time);
 
   // Looks at a particle step. slow_largest: acceleration of sub-stepped atoms here. Returns whether
@@ -59,8 +59,7 @@ class ParticleLookAhead : protected Pointers {
   bool owners_known = false;
   std::vector<int> owner_rank, owner_row;    // of local and ghost atoms, while these are told
   std::vector<char> *shared = nullptr;       // while it is told
-  // box vectors from owners to ghosts; of owners, and while these tell it, positions
-  std::vector<std::array<double, 3>> image_numbers;
+  std::vector<std::array<double, 3>> position_of_owner;    // of ghosts, while it is told
   enum class Message { OWNERS, ACTIVITY, SHARED, ACCELERATION, POSITIONS, LOADS };
   Message message = Message::OWNERS;
 
@@ -80,7 +79,6 @@ class ParticleLookAhead : protected Pointers {
   void find_active();
   void share_activity();
   void know_owners();
-  void number_images();
 };
 
 }    // namespace LAMMPS_NS

@@ -152,21 +152,28 @@ TEST(Advise, skin_counts_walls_and_images_that_move)
 {
   const double step = 0.01, speed = 3.0;
   const std::string law = " jkr 2e6 0.25 0 ";
-  auto least_skin = [&](const std::string &words) {
+  auto least_skin = [&](const std::string &words, double moving = 0.0) {
     Scene scene;
     scene.boundary = "f p p";
     scene.style = "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
     Simulation sim;
-    build(sim, {{0.6, 4.0, 4.0}, {4.0, 4.0, 4.0}}, scene);
+    build(sim, {{0.6, 4.0, 0.6}, {4.0, 4.0, 7.4}}, scene);
+    set_motion(sim, 1, {0.0, -moving, 0.0}, {0.0, 0.0, 0.0});
+    set_motion(sim, 2, {0.0, moving, 0.0}, {0.0, 0.0, 0.0});
     sim.run(words + "\nfix nve all nve/sphere/mts collision auto\ntimestep " + digits(step));
     return after(advice(sim, "speed 0.5"), "neighbor skin").at(1);
   };
   const std::string wall = "fix w all wall/levelset plane x 0 NULL" + law;
   EXPECT_NEAR(least_skin(wall), 2.4 * 0.5 * step, 1e-9);
   EXPECT_NEAR(least_skin(wall + "move linear " + digits(speed) + " 0 0"), 2.4 * speed * step, 1e-9);
-  EXPECT_NEAR(least_skin("change_box all triclinic\nfix flow all deform 1 yz erate " +
-                         digits(speed / 8.0) + " remap v"),
-              2.4 * speed * step, 1e-9);
+  const std::string shear = "change_box all triclinic\nfix flow all deform 1 yz erate ";
+  for (const double sign : {1.0, -1.0}) {    // at rest, along with the box, against it
+    SCOPED_TRACE(sign);
+    const std::string rate = digits(sign * speed / 8.0) + " remap v";
+    EXPECT_NEAR(least_skin(shear + rate), 2.4 * speed * step, 1e-9);
+    EXPECT_NEAR(least_skin(shear + rate, sign * 1.5), 2.4 * speed * step, 1e-9);
+    EXPECT_NEAR(least_skin(shear + rate, sign * -1.0), 2.4 * (speed + 2.0) * step, 1e-9);
+  }
 }
 
 TEST(Advise, has_nothing_to_change_in_a_good_scene)

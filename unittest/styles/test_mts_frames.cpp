@@ -10,7 +10,8 @@ const double step = 0.1;                             // [d/U]: particles see wal
 
 struct Outcome {
   std::vector<double> v;
-  double late;
+  double late = 0.0;
+  double cut = 0.0;    // runs that ended with forces
 };
 
 // Two spheres, 0.02 apart and from a wall at x = 0, which the wall strikes at unit speed: seen from
@@ -67,48 +68,115 @@ TEST(MtsFrames, door_drives_two_spheres)
 
 // Two spheres at rest on either side of a boundary at which the box is sheared: one meets the
 // other's image at the relative speed of the two sides. Or the same pair amid a box at rest.
-Outcome across_boundary(double timestep, bool image, int runs = 1)
+struct Shear {
+  std::string name = "xy";    // of the tilt: of y's vector along x
+  double tilt = 0.0;          // at first
+  int every = 1;              // N of fix deform
+  std::string boundary = "p p p", law = hertz;
+  bool image = true;
+  int runs = 1;
+};
+
+Outcome across_boundary(double timestep, const Shear &how)
 {
   const double offset = 8.0;    // of velocities: length of the box times rate
+  const int along = how.name[0] - 'x', across = how.name[1] - 'x';
   Scene scene;
-  scene.style = "pair_style granular/adhesive\npair_coeff * *" + hertz + "\n";
+  scene.boundary = how.boundary;
+  scene.style = "pair_style granular/adhesive\npair_coeff * *" + how.law + "\n";
+  std::vector<double> one(3, 4.0), two(3, 4.0), rest(3, 0.0), moving(3, 0.0);
+  const double at = 4.62 + (how.image ? how.tilt : 0.0);
+  two[along] = at - 8.0 * std::floor(at / 8.0);
+  one[across] = how.image ? 0.4 : 4.4;
+  two[across] = how.image ? 7.6 : 3.6;
+  moving[along] = how.image ? 0.0 : -offset;
   Simulation sim;
-  build(sim, {{4.0, image ? 0.4 : 4.4, 4.0}, {4.62, image ? 7.6 : 3.6, 4.0}}, scene);
-  set_motion(sim, 1, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
-  set_motion(sim, 2, {image ? 0.0 : -offset, 0.0, 0.0}, {0.0, 0.0, 0.0});
-  if (image)
-    sim.run("change_box all triclinic\nfix flow all deform 1 xy erate " + digits(offset / 8.0) +
-            " remap v\n");
+  build(sim, {{one[0], one[1], one[2]}, {two[0], two[1], two[2]}}, scene);
+  set_motion(sim, 1, rest, rest);
+  set_motion(sim, 2, moving, rest);
+  if (how.image)
+    sim.run("change_box all triclinic\nchange_box all " + how.name + " final " + digits(how.tilt) +
+            "\nfix flow all deform " + std::to_string(how.every) + " " + how.name + " erate " +
+            digits(offset / 8.0) + " remap v\n");
   sim.run("neighbor 0.8 bin\nfix nve all nve/sphere/mts collision auto safety 0.05\ntimestep " +
           digits(timestep));
-  for (int k = 0; k < runs; k++)
-    sim.run("run " + std::to_string(std::lround(0.06 / timestep / runs)));
+  Outcome found;
+  const int steps = static_cast<int>(std::lround(0.06 / timestep));
+  for (int k = 0; k < how.runs; k++) {
+    sim.run("run " + std::to_string(steps / how.runs));
+    found.late += sim.value("f_nve[5]");
+    const auto f = gather(sim, "f");
+    if (k < how.runs - 1) found.cut += std::fabs(f[along]) + std::fabs(f[across]) > 0.0;
+  }
   auto v = gather(sim, "v");
-  if (image) v[3] -= offset;
-  return {v, sim.value("f_nve[5]")};
+  if (how.image) v[3 + along] -= offset;
+  found.v = {v[along], v[across], v[3 + along], v[3 + across]};
+  return found;
 }
 
-TEST(MtsFrames, images_of_a_sheared_box_are_seen)
+// LAMMPS moves the box after the forces of a step, or with N = 0 before them. A tilt of 3.97 of a
+// box of 8 becomes one of -4 within the run.
+const Shear shears[] = {{"xy"}, {"xz"}, {"yz"}, {"xy", 0.0, 0}, {"xy", 3.97}, {"xz", 3.97, 0}};
+
+TEST(RanksMtsFrames, images_of_a_sheared_box_are_seen)
 {
-  for (const double timestep : {0.01, 0.02, 0.03, 0.06}) {
-    SCOPED_TRACE(timestep);
-    const auto found = across_boundary(timestep, true), other = across_boundary(timestep, false);
-    EXPECT_EQ(found.late, 0.0);
-    EXPECT_EQ(other.late, 0.0);
-    EXPECT_GT(std::fabs(found.v[1]), 0.5) << "they have met";
-    for (int c = 0; c < 6; c++) EXPECT_NEAR(found.v[c], other.v[c], 1e-6) << c;
-  }
+  for (auto how : shears)
+    for (const double timestep : {0.01, 0.02, 0.03, 0.06}) {
+      SCOPED_TRACE(how.name + " " + digits(how.tilt) + " N " + std::to_string(how.every) +
+                   " timestep " + digits(timestep));
+      const auto found = across_boundary(timestep, how);
+      how.image = false;
+      const auto other = across_boundary(timestep, how);
+      how.image = true;
+      EXPECT_EQ(found.late, 0.0);
+      EXPECT_EQ(other.late, 0.0);
+      EXPECT_GT(std::fabs(found.v[1]), 0.5) << "they have met";
+      for (int c = 0; c < 4; c++) EXPECT_NEAR(found.v[c], other.v[c], 1e-6) << c;
+    }
 }
 
-// A run that begins anew sees images where the last one left them, amid the impact, too.
-TEST(MtsFrames, images_do_not_jump_between_runs)
+// A run that begins anew sees images where the last one left them, amid the impact of two soft
+// spheres, too.
+TEST(RanksMtsFrames, images_do_not_jump_between_runs)
 {
-  for (const double timestep : {0.001, 0.003, 0.01}) {
-    SCOPED_TRACE(timestep);
-    const auto one = across_boundary(timestep, true), many = across_boundary(timestep, true, 6);
-    EXPECT_GT(std::fabs(one.v[1]), 0.5) << "they have met";
-    for (int c = 0; c < 6; c++) EXPECT_NEAR(many.v[c], one.v[c], 1e-9) << c;
+  for (auto how : shears)
+    for (const double timestep : {0.003, 0.01}) {
+      SCOPED_TRACE(how.name + " " + digits(how.tilt) + " N " + std::to_string(how.every) +
+                   " timestep " + digits(timestep));
+      how.law = " jkr 2.0e3 0.25 0.0 ";
+      how.runs = 1;
+      const auto one = across_boundary(timestep, how);
+      how.runs = static_cast<int>(std::lround(0.06 / timestep));
+      const auto many = across_boundary(timestep, how);
+      EXPECT_GT(std::fabs(one.v[1]), 0.5) << "they have met";
+      EXPECT_GT(many.cut, 1.0) << "amid the impact";
+      for (int c = 0; c < 4; c++) EXPECT_NEAR(many.v[c], one.v[c], 1e-9) << c;
+    }
+}
+
+// fix deform's own remap x moves particles along with the box, at the end of a step: a doublet
+// across a face of a box that is compressed is pressed as one amid it is.
+TEST(RanksMtsFrames, images_of_a_box_that_takes_particles_along)
+{
+  std::vector<double> forces[2];
+  for (const bool image : {true, false}) {
+    Scene scene;
+    scene.style = "pair_style granular/adhesive\npair_coeff * *" + hertz + "\n";
+    Simulation sim;
+    build(sim, {{image ? 0.5 : 4.5, 4.0, 4.0}, {image ? 7.501 : 3.501, 4.0, 4.0}}, scene);
+    for (const int id : {1, 2}) set_motion(sim, id, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+    sim.run("neighbor 0.8 bin\nfix flow all deform 1 x erate -0.1 remap x\n"
+            "fix nve all nve/sphere/mts collision 4\ntimestep 1e-4\nrun 0");
+    for (int k = 0; k < 30; k++) {
+      forces[image].push_back(gather(sim, "f")[0]);
+      sim.run("run 1");
+    }
   }
+  double most = 0.0;
+  for (const double f : forces[0]) most = std::max(most, std::fabs(f));
+  EXPECT_GT(most, 1.0);
+  for (size_t k = 0; k < forces[0].size(); k++)
+    EXPECT_NEAR(forces[1][k], forces[0][k], 1e-7 * most) << k;
 }
 
 // A particle that another command puts into a second one is not foreseen, and counts as late, also
