@@ -9,6 +9,14 @@
 
 namespace LAMMPS_NS {
 
+// how often an atom has been wrapped along each vector, by its flags
+inline void wraps_of(imageint image, int *n)
+{
+  n[0] = static_cast<int>(image & IMGMASK) - IMGMAX;
+  n[1] = static_cast<int>(image >> IMGBITS & IMGMASK) - IMGMAX;
+  n[2] = static_cast<int>(image >> IMG2BITS) - IMGMAX;
+}
+
 // n[3]: box vectors from an atom to an image of it, as the box is now or was a few steps ago
 inline void image_number(const Domain *domain, const double *atom, const double *image, double *n)
 {

@@ -2,8 +2,8 @@
 
 #include "atom.h"
 #include "atom_rows.h"
+#include "box_images.h"
 #include "comm.h"
-#include "domain.h"
 #include "error.h"
 #include "fix_contact_history.h"
 #include "fix_flow_force.h"
@@ -37,7 +37,8 @@ FixNVESphereMTS::~FixNVESphereMTS()
 
 int FixNVESphereMTS::setmask()
 {
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE | PRE_NEIGHBOR | POST_NEIGHBOR | POST_RUN;
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR |
+      POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -100,12 +101,37 @@ void FixNVESphereMTS::initial_integrate(int /*vflag*/)
   std::copy_n(foresight.ahead.activity.begin(), atom->nlocal + atom->nghost, activity.begin());
 }
 
-// Lists and forces at the end of a step are those of the box at its end, to which fix deform brings
-// it only after them: else a run that begins, whose box is where it is, would see images jump. In a
-// box that changes lists are made at each step.
+/* ----------------------------------------------------------------------
+   Lists and forces at the end of a step are those of the box at its end, to which fix deform brings
+   it only after them: else a run that begins, whose box is where it is, would see images jump. In a
+   box that changes lists are made at each step.
+------------------------------------------------------------------------- */
+
+void FixNVESphereMTS::pre_exchange()
+{
+  if (foresight.box_lag() == 0.0) return;
+  std::copy_n(atom->image, atom->nlocal, image_before.begin());
+  std::copy_n(&domain->h[3], 3, tilts_before);
+}
+
 void FixNVESphereMTS::pre_neighbor()
 {
-  if (images_lag) foresight.move_images(update->dt);
+  const double lag = foresight.box_lag();
+  if (lag == 0.0) return;
+  // what has been wrapped has gone along vectors of the box as it is; flags that change with a flip
+  // of the box do not tell of that
+  if (std::equal(tilts_before, tilts_before + 3, &domain->h[3]))
+    for (int i = 0; i < atom->nlocal; i++) {
+      int now[3], before[3];
+      wraps_of(atom->image[i], now);
+      wraps_of(image_before[i], before);
+      const double n[3] = {double(now[0] - before[0]), double(now[1] - before[1]),
+                           double(now[2] - before[2])};
+      double rate[3];
+      sum_of_box_vectors(n, domain->h_rate, rate);
+      for (int c = 0; c < 3; c++) atom->x[i][c] -= lag * rate[c];
+    }
+  foresight.move_images(lag);
 }
 
 // Every particle gets the kick of half the step with which it moved last.
@@ -313,29 +339,34 @@ void FixNVESphereMTS::grow_arrays(int nmax)
 {
   activity.resize(nmax, apf::FREE);
   slow_before.resize(nmax);
+  image_before.resize(nmax);
 }
 
 void FixNVESphereMTS::copy_arrays(int i, int j, int /*delflag*/)
 {
   activity[j] = activity[i];
   slow_before[j] = slow_before[i];
+  image_before[j] = image_before[i];
 }
 
 void FixNVESphereMTS::set_arrays(int i)
 {
   activity[i] = apf::FREE;
+  image_before[i] = atom->image[i];
 }
 
 int FixNVESphereMTS::pack_exchange(int i, double *buf)
 {
   buf[0] = activity[i];
   std::copy(slow_before[i].begin(), slow_before[i].end(), buf + 1);
-  return 7;
+  buf[7] = ubuf(image_before[i]).d;
+  return 8;
 }
 
 int FixNVESphereMTS::unpack_exchange(int i, double *buf)
 {
   activity[i] = static_cast<char>(buf[0]);
   std::copy_n(buf + 1, 6, slow_before[i].begin());
-  return 7;
+  image_before[i] = static_cast<imageint>(ubuf(buf[7]).i);
+  return 8;
 }

@@ -40,6 +40,9 @@ class FixNVESphereMTS : public Fix {
     foresight.list_was_built();
     foresight.share(activity);    // ghosts are new
   }
+  void setup_pre_exchange() override { pre_exchange(); }
+  void pre_exchange() override;
+  void setup_pre_neighbor() override { pre_neighbor(); }
   void pre_neighbor() override;
   void initial_integrate(int) override;
   void final_integrate() override;
@@ -98,7 +101,8 @@ class FixNVESphereMTS : public Fix {
   std::vector<class FixContacts *> keepers;
   std::vector<class FixFlowForce *> fluids;
   int freeze_group_bit = 0;
-  bool images_lag = false;    // LAMMPS has them where the box was when the step began
+  std::vector<imageint> image_before;    // where fix deform moves the box: before atoms are wrapped
+  double tilts_before[3] = {};
 
   struct Totals {    // of a run, for the summary
     bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0;

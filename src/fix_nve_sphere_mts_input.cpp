@@ -134,10 +134,10 @@ void FixNVESphereMTS::init()
   const auto freezes = modify->get_fix_by_style("^freeze");
   freeze_group_bit = freezes.empty() ? 0 : freezes[0]->groupbit;
   foresight.init(history, keepers, freeze_group_bit);
-  images_lag = false;    // fix deform 0 moves the box before the forces
+  foresight.box_every = 0;
   for (const auto &fix : modify->get_fix_list())
-    images_lag |=
-        domain->deform_vremap && utils::strmatch(fix->style, "^deform") && fix->nevery > 0;
+    if (domain->deform_vremap && utils::strmatch(fix->style, "^deform"))
+      foresight.box_every = fix->nevery;
   if (domain->deform_flag && !domain->deform_vremap && comm->me == 0)
     error->warning(FLERR,
                    "{} {}: fix deform moves particles or their images between two steps, which "

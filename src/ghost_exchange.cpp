@@ -56,7 +56,7 @@ void GhostExchange::set_owners(int nlocal, std::vector<int> rank, std::vector<in
 
 /* ---------------------------------------------------------------------- */
 
-void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, double step,
+void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, double lag,
                            const apf::Bodies &bodies, std::vector<char> &wanted)
 {
   chosen.clear();
@@ -106,7 +106,7 @@ void GhostExchange::choose(const std::vector<char> &used, const Domain *domain, 
     sum_of_box_vectors(n, domain->h, now);
     if (domain->deform_vremap) sum_of_box_vectors(n, domain->h_rate, rate);
     for (int c = 0; c < 3; c++) {
-      image.shift[c] = now[c] + step * rate[c];
+      image.shift[c] = now[c] + lag * rate[c];
       image.to_come[c] = domain->box_change ? image.shift[c] - (ghost[c] - owner[c]) : 0.0;
       image.dv[c] = domain->deform_vremap ? ghost[3 + c] - owner[3 + c] : 0.0;
     }

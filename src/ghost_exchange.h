@@ -22,9 +22,9 @@ class GhostExchange {
   void set_owners(int nlocal, std::vector<int> rank, std::vector<int> index);
 
   // Ghosts to keep up to date: those with used[row] != 0. Owners learn which of their atoms are
-  // wanted and mark these in wanted[row]. step: the particle step, in which images of a box that
-  // changes move on to where it will have them. Collective.
-  void choose(const std::vector<char> &used, const Domain *domain, double step,
+  // wanted and mark these in wanted[row]. lag: from the box as it is to that
+  // of the particle step's end, to which images move on. Collective.
+  void choose(const std::vector<char> &used, const Domain *domain, double lag,
               const apf::Bodies &bodies, std::vector<char> &wanted);
 
   // owners' positions and velocities go to ghosts; collective. left: share of the particle step to

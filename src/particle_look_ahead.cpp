@@ -46,6 +46,14 @@ void ParticleLookAhead::list_was_built()
   x_built.assign(&atom->x[0][0], &atom->x[0][0] + 3 * static_cast<size_t>(atom->nlocal));
 }
 
+double ParticleLookAhead::box_lag() const
+{
+  if (box_every == 0) return 0.0;
+  const bigint now = update->ntimestep;
+  const bigint moved = (update->setupflag ? now : now - 1) / box_every * box_every;
+  return static_cast<double>(now - moved) * update->dt;
+}
+
 void ParticleLookAhead::move_images(double time)
 {
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
@@ -54,10 +62,11 @@ void ParticleLookAhead::move_images(double time)
   message = Message::POSITIONS;
   comm->forward_comm(carrier, 3);
   for (int i = nlocal; i < nall; i++) {
-    double n[3], rate[3];
+    double n[3], now[3], rate[3];
     image_number(domain, position_of_owner[i].data(), atom->x[i], n);
+    sum_of_box_vectors(n, domain->h, now);
     sum_of_box_vectors(n, domain->h_rate, rate);
-    for (int c = 0; c < 3; c++) atom->x[i][c] += time * rate[c];
+    for (int c = 0; c < 3; c++) atom->x[i][c] = position_of_owner[i][c] + now[c] + time * rate[c];
   }
 }
 
@@ -78,7 +87,8 @@ bool ParticleLookAhead::look(double slow_largest)
   find_active();
   if (!owners_known) know_owners();
   std::vector<char> wanted(atom->nlocal, 0);
-  exchange.choose(ahead.used, domain, update->dt, history->bodies(), wanted);
+  exchange.choose(ahead.used, domain, box_every ? box_lag() : update->dt, history->bodies(),
+                  wanted);
   for (int i = 0; i < atom->nlocal; i++)
     if (wanted[i]) come_near(i);
   return rebuild;

@@ -26,7 +26,11 @@ class ParticleLookAhead : protected Pointers {
   void begin_run() { warned_of_skin = false; }
   void list_was_built();                      // rows are new
   void share(std::vector<char> &activity);    // with ghosts, as owners know it; collective
-  // ghosts that are new, from where they are now, as fix deform moves the box; collective
+  // fix deform moves the box after the forces of every so many steps; 0: before them, or not at all
+  int box_every = 0;
+  // by which the box is behind what it should be where forces are computed           [time]
+  double box_lag() const;
+  // new ghosts to where they will be in the box that much later; collective
   void move_images(double time);
 
   // Looks at a particle step. slow_largest: acceleration of sub-stepped atoms here. Returns whether

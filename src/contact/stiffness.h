@@ -88,7 +88,9 @@ struct Stiffest {
     if (demand_of(contact, overlap, speed * speed) <= demand2)
       frequency2 = std::max(frequency2, frequency2_of(contact, overlap));
     else
-      include(contact, overlap, std::min(speed * speed, speed2 + 2.0 * energy_per_mass()));
+      // (at rest the energy is 0 but for rounding)
+      include(contact, overlap,
+              std::min(speed * speed, speed2 + std::max(0.0, 2.0 * energy_per_mass())));
   }
 
   // speed2: the largest that may come about, squared
