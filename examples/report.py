@@ -217,7 +217,10 @@ def outside(row, value):
 
 
 def verdict(row, ours):
-    """Words for one row: too short a run, no number to compare with, or agreement."""
+    """Words for one row: too short a run, no number to compare with, or agreement.
+
+    What reaches the range by its spread, but varies by more than the range is wide and by more than half of itself, is no number.
+    """
     since = float(row.get("for_t", "").strip("=> ") or 0)
     if ours.t < since - 1e-6:
         return f"not reached: run ended at t = {ours.t:g}"
@@ -225,10 +228,12 @@ def verdict(row, ours):
         return "not reached"
     if np.isnan(row["low"]) and np.isnan(row["high"]):
         return "no number"
-    off = outside(row, ours.value)
-    if off == 0:
-        return "agrees"
-    return "agrees within our spread" if abs(off) <= np.nan_to_num(ours.spread) else "differs"
+    off, spread = abs(outside(row, ours.value)), np.nan_to_num(ours.spread)
+    if off > spread:
+        return "differs"
+    if spread > row["high"] - row["low"] and spread > abs(ours.value) / 2:
+        return f"no number: varies by {spread:.2g}"
+    return "agrees within our spread" if off else "agrees"
 
 
 def said(row):

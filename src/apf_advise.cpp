@@ -119,20 +119,29 @@ void APFAdvise::find_motion(FixFlowField *field)
     range.include(atom->v[i]);
     if (domain->deform_vremap) include_images(i, images);
   }
+  double wall_speed = 0.0;
   for (const auto &fix : modify->get_fix_list())
-    if (const auto *keeper = dynamic_cast<FixContacts *>(fix))
-      keeper->include_walls(range, update->dt);
+    if (const auto *wall = dynamic_cast<FixWallLevelset *>(fix)) {
+      wall->include_walls(range, update->dt);
+      wall_speed = std::max(wall_speed, wall->linear_speed());
+      if (wall->varies())
+        say(fmt::format("APF advice does not know how fast fix {} moves: its variables count "
+                        "when a run has begun; keyword speed gives a speed to expect",
+                        wall->id));
+    }
   MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, range.most, 6, MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, images.most, 6, MPI_DOUBLE, MPI_MAX, world);
   if (!speed_given) {
-    scene.U = fastest;
+    scene.U = std::max(fastest, wall_speed);
     if (field) scene.U = std::max(scene.U, fluid_at_particles(field).speed);
   }
-  scene.spread = std::max(range.spread(images), scene.U);    // what is at rest may come to move so
+  // what is at rest may come to move so, and by a wall that moves twice as fast as it
+  scene.spread = std::max({range.spread(images), scene.U, 2.0 * wall_speed});
   if (scene.U == 0.0)
     error->all(FLERR,
-               "Command apf_advise finds no particle and no fluid at one that moves: add keyword "
+               "Command apf_advise finds nothing that moves, no particle, fluid at one, or wall: "
+               "add keyword "
                "speed with the speed to expect");
 }
 
@@ -252,7 +261,7 @@ void APFAdvise::advise_steps()
     cures.push_back(fmt::format("timestep {:.3g} or less: a particle moves {:.3g} diameters in one",
                                 particle, scene.step / particle * apf::report_f2));
   if (sub_steps && scene.least_skin() > neighbor->skin)
-    cures.push_back(fmt::format("neighbor {:.2g} bin or larger: impacts are looked for two "
+    cures.push_back(fmt::format("neighbor {:.4g} bin or larger: impacts are looked for two "
                                 "timesteps ahead",
                                 scene.least_skin()));
 }

@@ -138,7 +138,7 @@ ComputeWallDeposit::Row ComputeWallDeposit::measure_row(int row,
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world);
   double most[2] = {highest, beyond};
   MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
-  if (most[1] > 0.0) warn_beyond(most[1]);
+  if (row == chosen && most[1] > 0.0) warn_beyond(most[1]);
   return {sums[0], most[0], wall->zones().per_area(sums[1], row)};
 }
 
@@ -147,7 +147,7 @@ void ComputeWallDeposit::warn_beyond(double height)
   if (!warned && comm->me == 0)
     error->warning(FLERR,
                    "{} {}: particles of the deposit are beyond the band of the wall's file, and "
-                   "count as if they were {} high; make the file with a wider band",
+                   "count as if they were {:.3g} high; make the file with a wider band",
                    command, id, height);
   warned = true;
 }

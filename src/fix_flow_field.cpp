@@ -68,9 +68,12 @@ void FixFlowField::init()
   for (auto &one : speed) {
     if (one.variable.empty()) continue;
     one.index = input->variable->find(one.variable.c_str());
-    if (one.index < 0) error->all(FLERR, "Fix flow/field variable {} does not exist", one.variable);
+    if (one.index < 0)
+      error->all(FLERR, Error::NOLASTLINE, "Fix flow/field {}: variable {} does not exist", id,
+                 one.variable);
     if (!input->variable->equalstyle(one.index))
-      error->all(FLERR, "Fix flow/field variable {} must be of style equal", one.variable);
+      error->all(FLERR, Error::NOLASTLINE, "Fix flow/field {}: variable {} must be of style equal",
+                 id, one.variable);
   }
   if (grid) grid->check_box(Error::NOLASTLINE);
 

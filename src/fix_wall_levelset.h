@@ -56,6 +56,8 @@ class FixWallLevelset : public FixContacts {
   // ---- for apf_advise and the checks of a run's start: the contact of a sphere at one surface
   const std::vector<apf::Surface> &all_surfaces() const { return surfaces; }
   const ContactCoeff &contact_coeff() const { return coefficient; }
+  double linear_speed() const { return motion.fastest(0.0); }    // of a wall that moves
+  bool varies() const { return motion.varies(); }                // by variables
   static apf::ContactBodies bodies_at(const apf::Surface &, double radius, double mass);
 
   // ---- for compute wall/deposit

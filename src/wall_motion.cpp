@@ -42,7 +42,7 @@ void WallMotion::parse(const char *command_in, int narg, char **arg, int &iarg)
       speed.variable = arg[iarg] + 2;
     else
       speed.value = reader.number(iarg, rotates ? "move rotate" : "move linear");
-    varies = varies || !speed.variable.empty();
+    by_variables = by_variables || !speed.variable.empty();
     const bool in_plane = rotates == (c == 2);
     if (domain->dimension == 2 && !in_plane && (speed.value != 0.0 || !speed.variable.empty()))
       error->all(FLERR, iarg, "{} move {} must be 0 {} {} in 2 dimensions, got {}", command,
@@ -50,7 +50,7 @@ void WallMotion::parse(const char *command_in, int narg, char **arg, int &iarg)
   }
 }
 
-void WallMotion::init()
+void WallMotion::init(const char *id)
 {
   for (Speed *speeds : {linear, turn})
     for (int c = 0; c < 3; c++) {
@@ -58,19 +58,19 @@ void WallMotion::init()
       if (speed.variable.empty()) continue;
       speed.index = input->variable->find(speed.variable.c_str());
       if (speed.index < 0)
-        error->all(FLERR, Error::NOLASTLINE, "{} move: variable {} does not exist", command,
+        error->all(FLERR, Error::NOLASTLINE, "{} {} move: variable {} does not exist", command, id,
                    speed.variable);
       if (!input->variable->equalstyle(speed.index))
-        error->all(FLERR, Error::NOLASTLINE, "{} move: variable {} must be of equal style", command,
-                   speed.variable);
+        error->all(FLERR, Error::NOLASTLINE, "{} {} move: variable {} must be of equal style",
+                   command, id, speed.variable);
     }
-  if (!varies) take_speeds();
+  if (!by_variables) take_speeds();
 }
 
 void WallMotion::take_speeds()
 {
   if (!pose.moves) return;
-  if (varies) modify->clearstep_compute();
+  if (by_variables) modify->clearstep_compute();
   double values[2][3];
   for (int s = 0; s < 2; s++)
     for (int c = 0; c < 3; c++) {
@@ -81,7 +81,7 @@ void WallMotion::take_speeds()
         error->all(FLERR, Error::NOLASTLINE, "{} move: variable {} is {} at step {}", command,
                    speed.variable, values[s][c], update->ntimestep);
     }
-  if (varies) modify->addstep_compute(update->ntimestep + 1);
+  if (by_variables) modify->addstep_compute(update->ntimestep + 1);
   pose.velocity = {values[0][0], values[0][1], values[0][2]};
   pose.spin = {values[1][0], values[1][1], values[1][2]};
 }

@@ -22,8 +22,10 @@ class WallMotion : protected Pointers {
   // move linear VX VY VZ | move rotate PX PY PZ WX WY WZ; iarg stands at `move` and is left behind
   // the last value
   void parse(const char *command, int narg, char **arg, int &iarg);
-  void init();
-  void take_speeds();    // of the step that begins now
+  void init(const char *id);    // of the fix, for errors
+  void take_speeds();           // of the step that begins now
+
+  bool varies() const { return by_variables; }
 
   // the largest speed of the wall within a distance of its centre of rotation         [velocity]
   double fastest(double reach) const;
@@ -35,7 +37,7 @@ class WallMotion : protected Pointers {
     int index = -1;
   };
   Speed linear[3], turn[3];
-  bool varies = false, moved = false, turned = false;
+  bool by_variables = false, moved = false, turned = false;
   std::string command;
 };
 

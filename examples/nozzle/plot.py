@@ -50,10 +50,16 @@ def closed(run):
     return run.t[left >= left[-1] - 0.5][0] - TRANSIT
 
 
+def end_of(run):
+    """When its exit closes, or else its end [D/U]."""
+    return closed(run) if parts(run)[3] == 1 else run.t[-1]
+
+
 def size_along(run):
-    """Mean size of free aggregates over x [widths of the channel] after a quarter of the run."""
+    """Mean size of free aggregates over x [widths of the channel] from a quarter of the run on, and before it closes if it does."""
     times, blocks = run.blocks(".profile")
-    blocks = [rows for t, rows in zip(times, blocks) if t >= 0.25 * run.t[-1]]
+    end = end_of(run)
+    blocks = [rows for t, rows in zip(times, blocks) if end / 4 <= t <= end + 0.5]    # the last t is the middle of the last D/U
     free, share = (sum(rows[:, 2] * rows[:, k] for rows in blocks) for k in (3, 4))
     return blocks[0][:, 1] / CHANNEL, np.divide(free, share, out=np.full(len(free), np.nan), where=share > 0)
 
@@ -70,7 +76,7 @@ def growth(run):
 
 def swing(run):
     """Standard deviation of the mean size over time, from a quarter of the run on, and before it closes if it does."""
-    end = closed(run) if parts(run)[3] == 1 else run.t[-1]
+    end = end_of(run)
     return run.history["mean_size"][(run.t >= end / 4) & (run.t <= end)].std(ddof=1)
 
 
@@ -178,7 +184,7 @@ def draw_clogs(runs, out):
     clogged = sorted((run for run in runs if parts(run)[3] == 1 and run.pictures(".close")[1]), key=order)
     if not clogged:
         return
-    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}, t = {run.t[-1]:.0f} D/U", run.pictures(".close")[1][-1])
+    ends = [(f"length {parts(run)[0]}, phi = {parts(run)[1]:g}{kind(run)}, t = {run.t[-1]:.0f} D/U", run.pictures(".close")[1][-1])
             for run in clogged]
     draw_pictures(ends, min(4, len(ends)), out / "figure21.png")
     run = max(clogged, key=lambda run: len(run.pictures(".close")[1]) / run.t[-1])

@@ -59,7 +59,7 @@ class Pipe(Run):
 
 def blocks_of(run, span):
     """Middles of spans of time [L/U], and the means of particles in aggregates and of aggregates in them."""
-    n = max(1, int(run.t[-1] / span + 0.01))
+    n = max(1, int(run.t[-1] / span + 0.05))    # a history ends a little before its run
     inside = [(run.t > span * k) & (run.t <= span * (k + 1)) for k in range(n)]
     means = [[run.history[key][part].mean() for part in inside] for key in ("in_aggregates", "aggregates")]
     return span * (np.arange(n) + 0.5), *np.array(means)
@@ -69,13 +69,13 @@ def dry_values(run, c, mean):
     """The quantities of report.csv for a dry run."""
     after = run.t > 1
     inside, count = (run.history[key][after] for key in ("in_aggregates", "aggregates"))
-    tens = blocks_of(run, 10)[1]
-    rises = [later / tens[k] for k in range(len(tens)) for later in tens[k + 1:] if tens[k]]
+    first, middle, last = blocks_of(run, run.t[-1] / 3)[1]
     return {"size of collision clusters": inside.sum() / count.sum(), "c at r = 0.2": c[abs(run.r - 0.2) < 0.05].mean(),
             "largest c for 0.05 < r < 0.9": c[(run.r > 0.05) & (run.r < 0.9)].max(),
             "c at r = 0.95": c[(run.r > 0.94) & (run.r < 0.96)].mean(),
             "c for r > 0.96 / mean c": c[-1] / mean,
-            "particles in collisions: largest rise between means of 10 L/U": max(rises, default=np.nan)}
+            "particles in collisions: middle / first third": middle / first if first else np.nan,
+            "particles in collisions: last / middle third": last / middle if middle else np.nan}
 
 
 def adhesive_values(run, c, v, total):

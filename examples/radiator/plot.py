@@ -35,9 +35,9 @@ def values_of(run):
     """The quantities of report.csv."""
     zones = run.history
     per_area = {zone: zones[zone][-1] / area for zone, area in AREA.items()}
-    half = zones["all"][run.t <= run.t[-1] / 2][-1]
+    quarters = np.diff(np.interp(run.t[-1] * np.linspace(0, 1, 5), run.t, zones["all"]))
     pairs = {"deposited per area: front / channels": (per_area["front"], per_area["channels"]),
-             "deposited late / half-time": (zones["all"][-1], half)}
+             "deposition rate: last / second quarter": (quarters[3], quarters[1])}
     return {key: above / below if below else np.nan for key, (above, below) in pairs.items()}
 
 

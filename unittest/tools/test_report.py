@@ -71,18 +71,26 @@ class Verdict(unittest.TestCase):
             self.assertEqual(report.verdict(row, report.Ours(value, spread, t)), words)
         self.assertEqual(report.verdict({**row, "low": NAN, "high": NAN}, report.Ours(1, t=60)), "no number")
 
+    def test_what_swings_by_more_than_the_range_and_half_of_itself_is_no_number(self):
+        row = {"low": 2.0, "value": NAN, "high": 3.0, "for_t": ""}
+        for value, spread, words in ((2.5, 1.3, "no number: varies by 1.3"), (1.5, 1.3, "no number: varies by 1.3"),
+                                     (2.5, 0.9, "agrees"), (2.5, 1.2, "agrees"), (6.0, 2.9, "differs"), (6.0, 4.5, "no number: varies by 4.5")):
+            self.assertEqual(report.verdict(row, report.Ours(value, spread, 60)), words)
+        self.assertEqual(report.verdict({**row, "high": NAN}, report.Ours(2.5, 2.0, 60)), "agrees")
+
 
 class Times(unittest.TestCase):
     """examples/report: what a full variant takes, where it has been measured to its end."""
 
     def test_whole_runs_alone(self):
         times = run_path(str(EXAMPLES / "report"))["times"]
-        rows = [dict(zip(("run", "to t", "ranks", "wall-clock [s]", "MB", "processor"), f"{words},P".split(",")))
-                for words in ("a-x,,2,300,9", "a-x,5,2,9,9", "a-y,,1,80.4,9", "a-z,20,2,48,9", "a,,2,3.5,7")]
-        runs = {name: {"run": name, "t": "100", "CPU [s]": "", "MB": "8"} for name in ("a-x", "a-y", "a-z")}
+        rows = [dict(zip(("run", "to t", "ranks", "wall-clock [s]", "MB", "processor"), words.split(",")))
+                for words in ("a-x,,2,300,9,P", "a-x,5,2,9,9,P", "a-y,,1,80.4,9,P", "a-z,20,2,48,9,P", "a,,2,3.5,7,P",
+                              "b-x,,1,70,9,P", "b-x,,2,40,9,P", "b-y,,1,90,9,Q", "b-y,,2,50,9,P")]
+        runs = {name: {"run": name, "t": "100", "CPU [s]": "", "MB": "8"} for name in ("a-x", "a-y", "a-z", "b-x", "b-y")}
         full, quick = times({"a": runs}, rows)
         self.assertEqual([(row["one rank [s]"], row["two ranks [s]"], row["processor"]) for row in full],
-                         [("", "300", "P"), ("80", "", "P"), ("", "", "")])
+                         [("", "300", "P"), ("80", "", "P"), ("", "", ""), ("70", "40", "P"), ("", "50", "P")])
         self.assertEqual(quick, [{"example": "a", "two ranks [s]": "3.5", "MB": "7"}])
 
     def test_sum_of_costs_tells_how_many_are_known(self):
