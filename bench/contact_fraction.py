@@ -131,14 +131,14 @@ def table(args, found):
                     Lambda), over a single rate with the same collision step, with c = 1; late: contacts
                     found late; cpu: least share of the time on a core."""), "",
              f"{'t':>4}{'x_c':>8}{'contacts':>10}{'Lambda':>8}{'single rate [s]':>24}{'mts [s]':>24}"
-             f"{'speed-up':>22}{'equal':>7}{'c':>6}{'model':>7}{'late':>6}{'cpu':>6}"]
+             f"{'speed-up':>24}{'equal':>7}{'c':>6}{'model':>7}{'late':>6}{'cpu':>6}"]
     for time, runs in found.items():
         gain = gains(runs)
         mid = {name: float(np.median(values)) for name, values in gain.items()}
         contacts = np.median([r["contacts"] for r in runs["mts"]]) / PARTICLES
         single, mts = (median_range([r["loop"] for r in runs[name]], ".2f") for name in SCHEMES)
         lines.append(f"{time:>4g}{mid['x_c']:>8.3f}{contacts:>10.3f}{mid['Lambda']:>8.1f}"
-                     f"{single:>24}{mts:>24}{median_range(gain['speedup'], '.2f'):>22}{mid['equal']:>7.2f}{mid['c']:>6.2f}"
+                     f"{single:>24}{mts:>24}{median_range(gain['speedup'], '.2f'):>24}{mid['equal']:>7.2f}{mid['c']:>6.2f}"
                      f"{mid['model']:>7.2f}{sum(r['late'] for r in runs['mts']):>6}"
                      f"{min(r['cpu'] for results in runs.values() for r in results):>6.0%}")
     return "\n".join(lines) + "\n"
