@@ -17,13 +17,14 @@
 #include <map>
 
 #define main flowgrid_main    // the program itself, to be called in a child
-#include "flowgrid.cpp"
+#include "flowgrid.cpp"       // NOLINT(bugprone-suspicious-include)
 #undef main
 
 namespace {
 
 using fuzz::Outcome;
 
+// NOLINTBEGIN(bugprone-suspicious-missing-comma): long ones go on
 const std::string commands[] = {
     "mesh.vti out.vtkhdf --spacing 0.5 --compress",
     "mesh.vti out.vtkhdf --spacing 0.5 0.5 1 --bounds 0 1 0 2 0 2 --velocity U --pressure p "
@@ -45,6 +46,7 @@ const std::string commands[] = {
     "out.vtkhdf --spacing 0.4 --bounds -1 1 -1 1 -1 1 --wall-surface solid.stl:solid --fluid-at "
     "0.9 0.9 0.9",
 };
+// NOLINTEND(bugprone-suspicious-missing-comma)
 
 // a tetrahedron, a cube of eight cells whose velocity is (y, 0, 0), and two cells of PLOT3D
 void write_inputs()

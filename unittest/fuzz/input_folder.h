@@ -32,7 +32,7 @@ class InputFolder {
   }
   std::string write(const std::string &name, const unsigned char *data, std::size_t size) const
   {
-    const std::string file = *this / name;
+    std::string file = *this / name;
     std::filesystem::create_directories(std::filesystem::path(file).parent_path());
     FILE *out = std::fopen(file.c_str(), "wb");
     require(out && std::fwrite(data, 1, size, out) == size, "room for the input");

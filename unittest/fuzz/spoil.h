@@ -81,7 +81,7 @@ class Mutator {
           words[at] = any_word();
       }
     }
-    const std::string line = join(words);
+    std::string line = join(words);
     if (change) *change = difference(right, split(line));
     return line;
   }
