@@ -108,10 +108,11 @@ void expect_carried(const RigidChain &chain, const RigidChain &before, const Vec
         std::sqrt(norm2(TwoBodies::vec(now.rolling, 0)) / norm2(rolling)) - 1.0,
         now.twisting / old.twisting - 1.0};
     for (const double change : changes)
-      expect_criterion(chain.list.size() > 1
-                           ? "C11 kernel: change of |xi| in 10 turns, bent chain that is turned"
-                           : "C11 kernel: change of |xi| in 10 turns, doublet that is turned",
-                       std::fabs(change), 0.0, 1e-9);
+      expect_criterion(
+          chain.list.size() > 1
+              ? "C11 kernel: change of the length of springs in 10 turns, bent chain that is turned"
+              : "C11 kernel: change of the length of springs in 10 turns, doublet that is turned",
+          std::fabs(change), 0.0, 1e-9);
     expect_near(TwoBodies::vec(now.sliding, 0), rotated(sliding, axis, angle),
                 1e-6 * std::sqrt(norm2(sliding)), "sliding");
     expect_near(TwoBodies::vec(now.rolling, 0), rotated(rolling, axis, angle),
