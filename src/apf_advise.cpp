@@ -141,8 +141,7 @@ void APFAdvise::find_motion(FixFlowField *field)
   if (scene.U == 0.0)
     error->all(FLERR,
                "Command apf_advise finds nothing that moves, no particle, fluid at one, or wall: "
-               "add keyword "
-               "speed with the speed to expect");
+               "add keyword speed with the speed to expect");
 }
 
 APFAdvise::Fluid APFAdvise::fluid_at_particles(FixFlowField *field) const

@@ -22,8 +22,8 @@ class GhostExchange {
   void set_owners(int nlocal, std::vector<int> rank, std::vector<int> index);
 
   // Ghosts to keep up to date: those with used[row] != 0. Owners learn which of their atoms are
-  // wanted and mark these in wanted[row]. lag: from the box as it is to that
-  // of the particle step's end, to which images move on. Collective.
+  // wanted and mark these in wanted[row]. lag: from the box as it is to that of the particle step's
+  // end, to which images move on. Collective.
   void choose(const std::vector<char> &used, const Domain *domain, double lag,
               const apf::Bodies &bodies, std::vector<char> &wanted);
 

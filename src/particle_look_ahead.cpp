@@ -18,8 +18,8 @@
 
 using namespace LAMMPS_NS;
 
-static constexpr double lookahead_safety =
-    2.0;                                 // distance looked ahead over that of the approach
+// distance looked ahead over that of the approach
+static constexpr double lookahead_safety = 2.0;
 static constexpr double growth = 1.2;    // of speeds within one step, but for impacts
 
 /* ---------------------------------------------------------------------- */

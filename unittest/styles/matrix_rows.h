@@ -22,7 +22,7 @@ struct Row {
   double begin = 0.0;    // what a cut changes: forces that follow velocities are taken anew there
   bool random = false;
   int empty = 0;    // steps in which some output is 0
-  int half = 31;    // steps before a cut, amid fluid steps, and after it
+  int half = 30;    // steps before a cut, and after it
   std::vector<std::string> integrators = all_integrators;
 
   // for the table: with its integrators, if they are not the three
@@ -242,6 +242,7 @@ inline std::vector<Row> table(const Files &files)
                  "fix air all flow/field uniform v_u 9 1 density 0.2 viscosity 0.5\n"
                  "fix drag all flow/force air drag stokes added_mass yes pressure yes\n";
     row.integrators = {"verlet", "mts", "mts 8 fluid 3"};
+    row.half = 31;    // amid a fluid step
     row.outputs = {entries("f_drag", 1, 3)};
     row.data_pair = pair_of(jkr);
     row.no_data = "data files have no rate of change of the flow";
@@ -253,6 +254,7 @@ inline std::vector<Row> table(const Files &files)
     row.styles = "fix air all flow/field file " + files.series.path +
         " density 0.2 viscosity 0.5\nfix drag all flow/force air drag stokes torque yes\n";
     row.integrators.push_back("mts 8 fluid 3");
+    row.half = 31;    // amid a fluid step
     row.outputs = {{"f_air[6]"}, entries("f_drag", 1, 3)};
     row.data_pair = pair_of(jkr);
     row.no_data = "";
@@ -266,7 +268,6 @@ inline std::vector<Row> table(const Files &files)
                  "fix drag all flow/force air drag difelice concentration c torque yes feedback "
                  "yes\n";
     row.integrators.push_back("mts 8 fluid 3");
-    row.half = 30;    // where a run begins the grid is made anew
     row.outputs = {{"f_c[1]"}, {"f_c[2]"}, entries("f_drag", 1, 3)};
     row.data_pair = pair_of(jkr);
     row.no_data = "";
@@ -280,7 +281,6 @@ inline std::vector<Row> table(const Files &files)
                  "fix drag all flow/force air drag difelice concentration c torque yes feedback "
                  "12 8 10\n";
     row.integrators.push_back("mts 8 fluid 3");
-    row.half = 30;    // as above
     row.outputs = {{"f_c[1]"}, {"f_c[2]"}, entries("f_drag", 1, 3), entries("f_drag", 25, 27)};
     row.data_pair = pair_of(jkr);
     row.no_data = "";
@@ -296,7 +296,7 @@ inline std::vector<Row> table(const Files &files)
     row.outputs = {{"f_c[1]"}, {"f_c[2]"}, entries("f_drag", 1, 3)};
     row.data_pair = pair_of(jkr);
     row.no_data = "";
-    row.begin = 2e-3;
+    row.begin = 1e-3;
   }
 #endif
   for (const std::string how : {"auto", "tolerance 0.01"}) {

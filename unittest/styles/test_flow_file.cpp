@@ -128,12 +128,13 @@ TEST(FlowFile, fluid_step_of_the_integrator_is_that_of_variables)
 {
   Simulation sim;
   sim.run(spheres);
-  sim.run("unfix move\npair_style granular/adhesive\npair_coeff * * jkr 1e3 0.3 0\n"
-          "comm_modify vel yes\nneighbor 2 bin\n"
-          "fix move all nve/sphere/mts collision 2 fluid 10\n"
-          "variable u equal step\n"
-          "fix flow all flow/field uniform v_u 0 0" +
-          fluid + "run 17\n");
+  const std::string scene = "pair_style granular/adhesive\npair_coeff * * jkr 1e3 0.3 0\n"
+                            "comm_modify vel yes\nneighbor 2 bin\n"
+                            "fix move all nve/sphere/mts collision 2 fluid 10\n"
+                            "variable u equal step\n"
+                            "fix flow all flow/field uniform v_u 0 0" +
+      fluid;
+  sim.run("unfix move\n" + scene + "run 17\n");
   EXPECT_EQ(sim.value("f_flow[1]"), 10.0);
   EXPECT_NEAR(sim.value("f_flow[7]"), 10.0 / 0.1, 1e-9);
   // a run that begins, or is resumed, within a fluid step has its values until the next one
@@ -143,12 +144,7 @@ TEST(FlowFile, fluid_step_of_the_integrator_is_that_of_variables)
   sim.run("run 4\n");
   EXPECT_EQ(sim.value("f_flow[1]"), 20.0);
   Simulation resumed;
-  resumed.run("read_restart " + half.path +
-              "\npair_style granular/adhesive\npair_coeff * * jkr 1e3 0.3 0\n"
-              "comm_modify vel yes\nneighbor 2 bin\n"
-              "fix move all nve/sphere/mts collision 2 fluid 10\nvariable u equal step\n"
-              "fix flow all flow/field uniform v_u 0 0" +
-              fluid + "run 2\n");
+  resumed.run("read_restart " + half.path + "\n" + scene + "run 2\n");
   EXPECT_EQ(resumed.value("f_flow[1]"), 10.0);
   EXPECT_NEAR(resumed.value("f_flow[7]"), 10.0 / 0.1, 1e-9);
   resumed.run("run 2\n");

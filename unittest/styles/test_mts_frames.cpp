@@ -72,7 +72,7 @@ struct Shear {
   std::string name = "xy";    // of the tilt: of y's vector along x
   double tilt = 0.0;          // at first
   int every = 1;              // N of fix deform
-  std::string boundary = "p p p", law = hertz;
+  std::string law = hertz;
   bool image = true;
   int runs = 1;
 };
@@ -82,7 +82,6 @@ Outcome across_boundary(double timestep, const Shear &how)
   const double offset = 8.0;    // of velocities: length of the box times rate
   const int along = how.name[0] - 'x', across = how.name[1] - 'x';
   Scene scene;
-  scene.boundary = how.boundary;
   scene.style = "pair_style granular/adhesive\npair_coeff * *" + how.law + "\n";
   std::vector<double> one(3, 4.0), two(3, 4.0), rest(3, 0.0), moving(3, 0.0);
   const double at = 4.62 + (how.image ? how.tilt : 0.0);
