@@ -21,6 +21,7 @@ namespace apf {
 
 // omega dt of one contact: velocity Verlet goes unstable at 2; twelve contacts on a particle (FCC)
 // raise its frequency by up to sqrt(6), hence 2 / sqrt(6).
+constexpr double unstable_kappa = 2.0;
 constexpr double largest_stable_kappa = 0.8;
 constexpr double accurate_kappa = 0.3;
 
@@ -51,9 +52,13 @@ struct StepRule {
 
   double kappa2(double slow2, double speed2) const
   {
-    if (tolerance == 0.0) return kappa * kappa;
     const double k2 = 8.0 * tolerance * (slow2 > speed2 ? slow2 / speed2 : 1.0);
-    return std::min(k2, largest_stable_kappa * largest_stable_kappa);
+    return tolerance == 0.0 ? kappa * kappa : std::min(k2, largest_kappa2());
+  }
+  double largest_kappa2() const
+  {
+    const double largest = tolerance == 0.0 ? kappa : largest_stable_kappa;
+    return largest * largest;
   }
 };
 
@@ -62,19 +67,23 @@ struct StepRule {
 struct Stiffest {
   StepRule rule;
   double step = 0.0;    // the particle step                                     [time]
+  double extra = 0.0;   // speed that forces may add in free flight           [velocity]
   double v45 = 0.0;     // v^(4/5)                                    [velocity^(4/5)]
   const double *acceleration = nullptr;    // of each body's surface    [velocity/time]
   double frequency2 = 0.0;    // largest of all contacts, squared                   [1/time^2]
   double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
   ContactMode mode = NONE;    // of the contact that demands it
 
-  // a pair that may touch within the time step; if it does at its present speed, first touch sets
-  // U(0) - U(rest) = 0.607082 F_C delta_C free
+  // A pair that may touch within the time step. If it does so as it flies, first touch sets
+  // U(0) - U(rest) = 0.607082 F_C delta_C free. If something must strike it first, that something is
+  // held to the tolerance by its own approach, and this pair to what is stable.
   void include_near(const StiffestMode &contact, const Approach &approach)
   {
-    const bool touches = approach.gap <= approach.closing_speed * step;
-    const double speed = approach.relative_speed;
-    include(contact, 0.0, speed * speed + (touches ? 0.607082 * contact.slow2 : 0.0));
+    const double speed = approach.relative_speed + extra;
+    const bool touches = approach.gap <= (approach.closing_speed + extra) * step;
+    demand(contact, 0.0,
+           touches ? rule.kappa2(contact.slow2, speed * speed + 0.607082 * contact.slow2)
+                   : rule.largest_kappa2());
   }
 
   // A contact whose surfaces move at a relative speed, squared. Within the step it may come to move
@@ -85,8 +94,9 @@ struct Stiffest {
                double relative_acceleration, Energy energy_per_mass)
   {
     const double speed = std::sqrt(speed2) + relative_acceleration * step;
-    if (demand_of(contact, overlap, speed * speed) <= demand2)
-      frequency2 = std::max(frequency2, frequency2_of(contact, overlap));
+    const double f2 = frequency2_of(contact, overlap);
+    if (f2 <= demand2 * rule.kappa2(contact.slow2, speed * speed))
+      frequency2 = std::max(frequency2, f2);
     else
       // (at rest the energy is 0 but for rounding)
       include(contact, overlap,
@@ -96,22 +106,22 @@ struct Stiffest {
   // speed2: the largest that may come about, squared
   void include(const StiffestMode &contact, double overlap, double speed2)
   {
-    frequency2 = std::max(frequency2, frequency2_of(contact, overlap));
-    const double d2 = demand_of(contact, overlap, speed2);
-    if (d2 <= demand2) return;
-    demand2 = d2;
-    mode = contact.mode;
+    demand(contact, overlap, rule.kappa2(contact.slow2, speed2));
   }
 
  private:
+  void demand(const StiffestMode &contact, double overlap, double kappa2)
+  {
+    const double f2 = frequency2_of(contact, overlap);
+    frequency2 = std::max(frequency2, f2);
+    if (f2 <= demand2 * kappa2) return;
+    demand2 = f2 / kappa2;
+    mode = contact.mode;
+  }
   double frequency2_of(const StiffestMode &contact, double overlap) const
   {
     const double deepest = std::max({overlap, contact.impact * v45, contact.least});
     return contact.frequency * contact.frequency * std::sqrt(deepest / contact.overlap);
-  }
-  double demand_of(const StiffestMode &contact, double overlap, double speed2) const
-  {
-    return frequency2_of(contact, overlap) / rule.kappa2(contact.slow2, speed2);
   }
 };
 

@@ -102,6 +102,42 @@ TEST(MtsTolerance, impact_faster_than_adhesion_depends_on_tolerance_and_compress
             std::ceil(20.0 * stiffer(v) / std::sqrt(0.08)));
 }
 
+// A pair that nears each other, but not within the step as it flies, may yet be struck: it takes
+// stable steps, and fine ones in the step in which it touches.
+TEST(MtsTolerance, approach_takes_fine_steps_when_it_will_touch)
+{
+  const double v = 3.0 * std::sqrt(slow2), step = 20.0 / frequency;
+  for (const double steps : {1.7, 1.3, 0.7, 0.3}) {    // to touch
+    const double kappa = steps > 1.0 ? 0.8 : std::sqrt(0.08);
+    EXPECT_EQ(steps_at(-steps * v * step, v, 0.01, step), std::ceil(20.0 * stiffer(v) / kappa))
+        << steps;
+  }
+}
+
+// The first strikes the second, and this the third within the same step.
+TEST(MtsTolerance, what_is_struck_is_held_to_the_tolerance_by_who_strikes)
+{
+  for (const double ratio : {2.0, 4.7}) {
+    const double v = ratio * sticking_speed;
+    auto after = [](double speed) {    // who is struck at rest leaves with (1 + e)/2 of it
+      return 0.5 * (speed + std::sqrt(speed * speed - sticking_speed * sticking_speed));
+    };
+    for (int n = 0; n < 8; n++) {
+      Simulation sim;
+      Scene scene;
+      scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "\nneighbor 2.5 bin\n";
+      const double first = 3.0, second = first + 1.005 + 0.1 * n / 8.0;
+      build(sim, {{first, 4.0, 4.0}, {second, 4.0, 4.0}, {second + 1.2, 4.0, 4.0}}, scene);
+      char line[200];
+      snprintf(line, sizeof(line), "timestep %.17g\nset atom 1 vx %.17g\n", 0.4 / v, v);
+      sim.run(line + std::string("fix move all nve/sphere/mts collision tolerance 0.01\nrun 2"));
+      EXPECT_EQ(sim.value("f_move[5]"), 0.0) << "found late";
+      const double exact = after(after(v));
+      EXPECT_NEAR(sim.value("vx[3]") / exact, 1.0, 0.01) << ratio << " phase " << n;
+    }
+  }
+}
+
 // e^2 is the energy that is left: its error is T at most, that of e in the mean of phases less
 TEST(MtsTolerance, error_of_restitution_falls_with_the_tolerance)
 {
@@ -125,6 +161,22 @@ TEST(MtsTolerance, error_of_restitution_falls_with_the_step)
   EXPECT_LT(fine.worst, 0.0006);
   EXPECT_GT(coarse.mean / fine.mean, 6.0);
   EXPECT_LT(coarse.mean / fine.mean, 50.0);
+}
+
+// at rest a contact of this pair is stable with 6 steps, and in such an impact it is not
+TEST(MtsTolerance, too_few_steps_for_an_impact_are_told_at_the_end)
+{
+  const double v = 6.0 * sticking_speed, step = 10.0 / frequency;
+  for (const int steps : {6, 13}) {
+    Simulation sim;
+    place(sim, 1.0 + 0.5 * v * step, v, std::to_string(steps), step);
+    const double kappa = 10.0 * stiffer(v) / steps;
+    const auto text = log_of(sim, "run 2\n");
+    const auto at = text.find("a contact is unstable above 2; use collision ");
+    EXPECT_EQ(at != std::string::npos, kappa > 2.0) << text;
+    if (at != std::string::npos)
+      EXPECT_NEAR(std::stod(text.substr(at + 45)), steps * kappa / 0.3, 1.5) << text;
+  }
 }
 
 TEST(MtsTolerance, wrong_words_are_named)
