@@ -2,7 +2,9 @@
 
 Blocks with a caption are files: they are written under that name. Blocks of language bash are typed,
 in their order, in one shell that stops at the first failure. PROGRAMS (lmp, flowgrid) stand in the
-folder of the commands as ./NAME, beside examples, tools and potentials of the checkout.
+folder of the commands as ./NAME, beside examples, tools and potentials of the checkout. A block that
+a comment ".. is FILE" precedes is what the commands have written there: the same words, and numbers
+within a fifth or 3, as other processors round otherwise and dust is chaotic.
 Exit code 77: skipped, because a command that the page needs is not there.
 """
 import re
@@ -21,6 +23,30 @@ def blocks(page):
     for language, options, text in BLOCK.findall(page.read_text()):
         caption = re.search(r":caption: (\S+)", options)
         yield language, caption and caption[1], re.sub(r"^   ", "", text.rstrip() + "\n", flags=re.M)
+
+
+SHOWN = re.compile(r"^\.\. is (\S+)\n\n\.\. parsed-literal::\n\n((?:   .*\n)+)", re.M)
+
+
+def differs(shown, written):
+    """Whether two words do, or two numbers by too much."""
+    try:
+        a, b = float(shown), float(written)
+    except ValueError:
+        return shown != written
+    return abs(a - b) > max(0.2 * abs(b), 3.0 if min(abs(a), abs(b)) >= 1.0 else 0.0)
+
+
+def compare(page, folder):
+    """Ends with the first line of a shown file that was written otherwise."""
+    for name, text in SHOWN.findall(page.read_text()):
+        shown, written = text.splitlines(), (folder / name).read_text().splitlines()
+        if len(shown) != len(written):
+            sys.exit(f"{page.name} shows {len(shown)} lines of {name}, {len(written)} were written")
+        for one, other in zip(shown, written):
+            words, others = one.split(), other.split()
+            if len(words) != len(others) or any(map(differs, words, others)):
+                sys.exit(f"{page.name} shows of {name}\n   {one.strip()}\nbut written was\n   {other}")
 
 
 def main():
@@ -46,6 +72,7 @@ def main():
                                stderr=subprocess.STDOUT, text=True, check=False)
         if shell.returncode:
             sys.exit(shell.stdout[-3000:] + f"\n{page.name}: exit code {shell.returncode}")
+        compare(page, folder)
         print(f"{page.name}: {commands.count(chr(10)) - 1} lines of commands")
 
 
