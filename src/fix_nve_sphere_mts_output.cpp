@@ -40,11 +40,12 @@ void FixNVESphereMTS::post_run()
         "timestep, or see which command moves particles between two steps",
         command, id, late);
   if (fixed_steps && run.kappa > apf::unstable_kappa && comm->me == 0)
-    error->warning(FLERR,
-                   "{} {}: {} collision steps in a particle step are too few for impacts as fast as "
-                   "there were: omega dt = {:.3g}, and a contact is unstable above {}; use collision "
-                   "{} or more",
-                   command, id, fixed_steps, run.kappa, apf::unstable_kappa, accurate_steps());
+    error->warning(
+        FLERR,
+        "{} {}: {} collision steps in a particle step are too few for impacts as fast as "
+        "there were: omega dt = {:.3g}, and a contact is unstable above {}; use collision "
+        "{} or more",
+        command, id, fixed_steps, run.kappa, apf::unstable_kappa, accurate_steps());
   begin_totals();    // also for a run without setup
 }
 

@@ -66,9 +66,9 @@ struct StepRule {
 // radius, and that as the root of the overlap, with an impact at the speed v in view.
 struct Stiffest {
   StepRule rule;
-  double step = 0.0;    // the particle step                                     [time]
-  double extra = 0.0;   // speed that forces may add in free flight           [velocity]
-  double v45 = 0.0;     // v^(4/5)                                    [velocity^(4/5)]
+  double step = 0.0;     // the particle step                                     [time]
+  double extra = 0.0;    // speed that forces may add in free flight           [velocity]
+  double v45 = 0.0;      // v^(4/5)                                    [velocity^(4/5)]
   const double *acceleration = nullptr;    // of each body's surface    [velocity/time]
   double frequency2 = 0.0;    // largest of all contacts, squared                   [1/time^2]
   double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
