@@ -74,8 +74,8 @@ struct Stiffest {
   double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
   ContactMode mode = NONE;    // of the contact that demands it
 
-  // A pair that may touch within the time step. If it does so as it flies, first touch sets
-  // U(0) - U(rest) = 0.607082 F_C delta_C free. If something must strike it first, that something is
+  // A pair that may touch within the time step. If it does so as it flies, first touch sets free
+  // U(0) - U(rest) = 0.607082 F_C delta_C. If something must strike it first, that something is
   // held to the tolerance by its own approach, and this pair to what is stable.
   void include_near(const StiffestMode &contact, const Approach &approach)
   {
