@@ -161,6 +161,7 @@ void FixNVESphereMTS::choose_steps()
   stiffest.rule = rule;
   stiffest.step = update->dt;
   stiffest.extra = foresight.ahead.extra;
+  stiffest.strike = foresight.ahead.strike();
   stiffest.acceleration = foresight.ahead.acceleration.data();
   stiffest.v45 = std::pow(foresight.ahead.fastest, 0.8);
   for (auto *keeper : keepers) keeper->find_stiffest(stiffest);

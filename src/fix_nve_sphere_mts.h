@@ -136,7 +136,6 @@ class FixNVESphereMTS : public Fix {
   void drift_free();
   bigint late_contacts() const;
   std::string finest_step() const;
-  bigint accurate_steps() const;    // for the stiffest contact that the run had
 };
 
 }    // namespace LAMMPS_NS

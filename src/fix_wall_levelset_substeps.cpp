@@ -59,7 +59,10 @@ void FixWallLevelset::find_approaching(apf::LookAhead &ahead)
       if (!closed && approach.gap > farthest) continue;
       if (closed || approach.gap <= ahead.distance(approach.closing_speed)) {
         ahead.meet(i, approach.relative_speed, speed_of(i, ahead));
-        if (!closed) near.push_back({i, s});
+        if (!closed) {
+          near.push_back({i, s});
+          ahead.approach(approach);
+        }
       } else {
         perhaps.push_back({i, s, approach.gap});
       }
@@ -155,7 +158,8 @@ void FixWallLevelset::find_stiffest(apf::Stiffest &stiffest)
     const double *x = atom->x[i];
     const auto bodies = bodies_of(i, s, x);
     const int kind = contacts.kinds.find(s, coefficient.model, bodies);
-    stiffest.include_near(contacts.kinds[kind].mode, approach_of(i, foot_of(s, x)));
+    stiffest.include_near(contacts.kinds[kind].mode, approach_of(i, foot_of(s, x)),
+                          stiffest.acceleration[i]);
   }
   if (wet) bridges.find_stiffest(stiffest);
 }

@@ -214,7 +214,8 @@ void PairBridges::find_stiffest(apf::Stiffest &stiffest)
       const double volume = intake(i, j).volume();
       if (volume == 0.0) continue;
       const auto mode = apf::capillary_mode(list.constants(number_of_kind(i, j), volume));
-      stiffest.include_near(mode, apf::Approach::of(rows[i], rows[j], meetings.touch[k]));
+      stiffest.include_near(mode, apf::Approach::of(rows[i], rows[j], meetings.touch[k]),
+                            stiffest.acceleration[i] + stiffest.acceleration[j]);
     }
   });
 }

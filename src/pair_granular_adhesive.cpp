@@ -185,7 +185,8 @@ void PairGranularAdhesive::find_stiffest(apf::Stiffest &stiffest)
     for (const int k : candidates.near) {
       const int i = candidates.i[k], j = candidates.j[k];
       const auto approach = apf::Approach::of(rows[i], rows[j], candidates.touch[k]);
-      stiffest.include_near(mode_of(i, j), approach);
+      stiffest.include_near(mode_of(i, j), approach,
+                            stiffest.acceleration[i] + stiffest.acceleration[j]);
     }
   });
   if (wet) bridges.find_stiffest(stiffest);

@@ -220,7 +220,7 @@ void ParticleLookAhead::find_active()
     if (MathExtra::lensq3(load) > 0.0) come_near(i);
   }
   for (auto *keeper : keepers) keeper->find_fastest(ahead);
-  double most[3] = {ahead.released, ahead.fastest, 0.0};
+  double most[4] = {ahead.released, ahead.fastest};
   MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, world);
   ahead.released = most[0];
   ahead.fastest = most[1];
@@ -229,9 +229,11 @@ void ParticleLookAhead::find_active()
   auto know_speeds = [&] {
     most[0] = ahead.swiftest;
     most[1] = ahead.fastest;
-    MPI_Allreduce(MPI_IN_PLACE, most, 3, MPI_DOUBLE, MPI_MAX, world);
+    most[3] = ahead.striking;
+    MPI_Allreduce(MPI_IN_PLACE, most, 4, MPI_DOUBLE, MPI_MAX, world);
     ahead.swiftest = most[0];
     ahead.fastest = most[1];
+    ahead.striking = most[3];
   };
   know_speeds();
   // what may be struck may strike others, also on other ranks; these may be swifter

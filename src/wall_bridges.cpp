@@ -335,6 +335,7 @@ void WallBridges::find_approaching(apf::LookAhead &ahead)
       } else if (place.gap <= ahead.distance(approach.closing_speed)) {
         ahead.meet(i, approach.relative_speed, wall->speed_of(i, ahead));
         near.push_back(place);
+        ahead.approach({place.gap, approach.closing_speed, approach.relative_speed});
       } else if (place.gap <= farthest) {
         perhaps.push_back(place);
       }
@@ -368,7 +369,7 @@ void WallBridges::find_stiffest(apf::Stiffest &stiffest)
     const auto mode = apf::capillary_mode(list.constants(kind, volume));
     auto approach = wall->approach_of(place.i, wall->foot_of(place.surface, atom->x[place.i]));
     approach.gap = place.gap;
-    stiffest.include_near(mode, approach);
+    stiffest.include_near(mode, approach, stiffest.acceleration[place.i]);
   }
 }
 

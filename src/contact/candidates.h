@@ -83,7 +83,10 @@ struct Candidates {
       if (closed[k] || approach.gap <= ahead.distance(approach.closing_speed)) {
         ahead.meet(i[k], approach.relative_speed, ahead.speed_of(rows, i[k]));
         ahead.meet(j[k], approach.relative_speed, ahead.speed_of(rows, j[k]));
-        if (!closed[k]) near.push_back(k);
+        if (!closed[k]) {
+          near.push_back(k);
+          ahead.approach(approach);
+        }
       } else {
         const double i_to_j = speed_towards(a, b, ahead.frame);
         perhaps.push_back({k, approach.gap, i_to_j, approach.closing_speed - i_to_j});

@@ -21,7 +21,6 @@ namespace apf {
 
 // omega dt of one contact: velocity Verlet goes unstable at 2; twelve contacts on a particle (FCC)
 // raise its frequency by up to sqrt(6), hence 2 / sqrt(6).
-constexpr double unstable_kappa = 2.0;
 constexpr double largest_stable_kappa = 0.8;
 constexpr double accurate_kappa = 0.3;
 
@@ -66,24 +65,26 @@ struct StepRule {
 // radius, and that as the root of the overlap, with an impact at the speed v in view.
 struct Stiffest {
   StepRule rule;
-  double step = 0.0;     // the particle step                                     [time]
-  double extra = 0.0;    // speed that forces may add in free flight           [velocity]
-  double v45 = 0.0;      // v^(4/5)                                    [velocity^(4/5)]
+  double step = 0.0;      // the particle step                                     [time]
+  double extra = 0.0;     // speed that forces may add in free flight           [velocity]
+  double strike = 0.0;    // that strikes may add to an approach                 [velocity]
+  double v45 = 0.0;       // v^(4/5)                                    [velocity^(4/5)]
   const double *acceleration = nullptr;    // of each body's surface    [velocity/time]
   double frequency2 = 0.0;    // largest of all contacts, squared                   [1/time^2]
   double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
   ContactMode mode = NONE;    // of the contact that demands it
 
-  // A pair that may touch within the time step. If it does so as it flies, first touch sets free
-  // U(0) - U(rest) = 0.607082 F_C delta_C. If something must strike it first, that something is
-  // held to the tolerance by its own approach, and this pair to what is stable.
-  void include_near(const StiffestMode &contact, const Approach &approach)
+  // A pair that does not touch, of bodies with a sum of accelerations. If it will within the step as
+  // it flies, first touch sets U(0) - U(rest) = 0.607082 F_C delta_C free. Where neither that nor
+  // what moves in contacts now can bring it together, which nothing foresees, stable steps will do.
+  void include_near(const StiffestMode &contact, const Approach &approach,
+                    double relative_acceleration)
   {
-    const double speed = approach.relative_speed + extra;
-    const bool touches = approach.gap <= (approach.closing_speed + extra) * step;
+    const double closing = approach.closing_speed + extra, speed = approach.relative_speed + extra;
+    const double adhesion2 = approach.gap <= closing * step ? 0.607082 * contact.slow2 : 0.0;
+    const bool touches = approach.gap <= (closing + relative_acceleration * step + strike) * step;
     demand(contact, 0.0,
-           touches ? rule.kappa2(contact.slow2, speed * speed + 0.607082 * contact.slow2)
-                   : rule.largest_kappa2());
+           touches ? rule.kappa2(contact.slow2, speed * speed + adhesion2) : rule.largest_kappa2());
   }
 
   // A contact whose surfaces move at a relative speed, squared. Within the step it may come to move

@@ -74,12 +74,33 @@ struct VelocityRange {
   }
 };
 
+// Two bodies that see each other along a line.
+struct Approach {
+  double gap;               // between the surfaces                                  [length]
+  double closing_speed;     // < 0 when they part                                    [velocity]
+  double relative_speed;    // of the centres, >= 0                                  [velocity]
+
+  template <class Row> static Approach of(const Row &i, const Row &j, double radius_sum)
+  {
+    double d2 = 0.0, dv = 0.0, v2 = 0.0;
+    for (int c = 0; c < Row::dim; c++) {
+      const double d = j.x[c] - i.x[c], v = i.v[c] - j.v[c];
+      d2 += d * d;
+      dv += d * v;
+      v2 += v * v;
+    }
+    const double distance = std::sqrt(d2);
+    return {distance - radius_sum, dv / distance, std::sqrt(v2)};
+  }
+};
+
 struct LookAhead {
-  double step = 0.0;       // particle step                                               [time]
-  double reach = 0.0;      // safety factor x particle step                               [time]
-  double extra = 0.0;      // speed that forces can add to an approach                [velocity]
-  double margin = 0.0;     // added to every distance                                   [length]
-  double fastest = 0.0;    // largest relative speed of bodies that touch or approach [velocity]
+  double step = 0.0;        // particle step                                               [time]
+  double reach = 0.0;       // safety factor x particle step                               [time]
+  double extra = 0.0;       // speed that forces can add to an approach                [velocity]
+  double margin = 0.0;      // added to every distance                                   [length]
+  double fastest = 0.0;     // largest relative speed of bodies that touch or approach [velocity]
+  double striking = 0.0;    // largest of surfaces that touch, or will as they fly     [velocity]
 
   // speeds in the frame
   double frame[3] = {0.0, 0.0, 0.0};    // its velocity                               [velocity]
@@ -99,7 +120,7 @@ struct LookAhead {
     activity.assign(bodies, FREE);
     acceleration.assign(bodies, 0.0);
     used.assign(bodies, 0);
-    fastest = swiftest = released = 0.0;
+    fastest = striking = swiftest = released = 0.0;
   }
 
   bool free(int i) const { return activity[i] == FREE; }
@@ -117,6 +138,8 @@ struct LookAhead {
   static constexpr double spin_share = 4.0 / 7.0;
 
   double after_impacts() const { return bounded(swiftest); }
+  // what strikes on both of its bodies may add to an approach
+  double strike() const { return 2.0 * amplify * striking; }
 
   double distance(double closing) const
   {
@@ -135,7 +158,14 @@ struct LookAhead {
   void may_move(double relative_speed, double added)
   {
     fastest = std::max(fastest, relative_speed);
+    striking = std::max(striking, relative_speed);
     released = std::max(released, added);
+  }
+  // bodies that do not touch, but may within the step
+  void approach(const Approach &pair)
+  {
+    if (pair.gap <= step * (pair.closing_speed + extra))
+      striking = std::max(striking, pair.relative_speed);
   }
   void meet(int i, double relative_speed, double speed)
   {
@@ -153,26 +183,6 @@ struct LookAhead {
 
  private:
   double bounded(double speed) const { return amplify * (speed + released) + 2.0 * walls; }
-};
-
-// Two bodies that see each other along a line.
-struct Approach {
-  double gap;               // between the surfaces                                  [length]
-  double closing_speed;     // < 0 when they part                                    [velocity]
-  double relative_speed;    // of the centres, >= 0                                  [velocity]
-
-  template <class Row> static Approach of(const Row &i, const Row &j, double radius_sum)
-  {
-    double d2 = 0.0, dv = 0.0, v2 = 0.0;
-    for (int c = 0; c < Row::dim; c++) {
-      const double d = j.x[c] - i.x[c], v = i.v[c] - j.v[c];
-      d2 += d * d;
-      dv += d * v;
-      v2 += v * v;
-    }
-    const double distance = std::sqrt(d2);
-    return {distance - radius_sum, dv / distance, std::sqrt(v2)};
-  }
 };
 
 }    // namespace apf

@@ -163,22 +163,6 @@ TEST(MtsTolerance, error_of_restitution_falls_with_the_step)
   EXPECT_LT(coarse.mean / fine.mean, 50.0);
 }
 
-// at rest a contact of this pair is stable with 6 steps, and in such an impact it is not
-TEST(MtsTolerance, too_few_steps_for_an_impact_are_told_at_the_end)
-{
-  const double v = 6.0 * sticking_speed, step = 10.0 / frequency;
-  for (const int steps : {6, 13}) {
-    Simulation sim;
-    place(sim, 1.0 + 0.5 * v * step, v, std::to_string(steps), step);
-    const double kappa = 10.0 * stiffer(v) / steps;
-    const auto text = log_of(sim, "run 2\n");
-    const auto at = text.find("a contact is unstable above 2; use collision ");
-    EXPECT_EQ(at != std::string::npos, kappa > 2.0) << text;
-    if (at != std::string::npos)
-      EXPECT_NEAR(std::stod(text.substr(at + 45)), steps * kappa / 0.3, 1.5) << text;
-  }
-}
-
 TEST(MtsTolerance, wrong_words_are_named)
 {
   Simulation sim;
