@@ -3,8 +3,8 @@
 Blocks with a caption are files: they are written under that name. Blocks of language bash are typed,
 in their order, in one shell that stops at the first failure. PROGRAMS (lmp, flowgrid) stand in the
 folder of the commands as ./NAME, beside examples, tools and potentials of the checkout. A block that
-a comment ".. is FILE" precedes is what the commands have written there: the same words, and numbers
-within a fifth or 3, as other processors round otherwise and dust is chaotic.
+a comment ".. is FILE" precedes is what the commands have written there: the same words, numbers
+within a fifth, and counts within that or 3, as other processors round otherwise and dust is chaotic.
 Exit code 77: skipped, because a command that the page needs is not there.
 """
 import re
@@ -34,7 +34,8 @@ def differs(shown, written):
         a, b = float(shown), float(written)
     except ValueError:
         return shown != written
-    return abs(a - b) > max(0.2 * abs(b), 3.0 if min(abs(a), abs(b)) >= 1.0 else 0.0)
+    count = re.fullmatch(r"\d+", shown) and re.fullmatch(r"\d+", written)
+    return abs(a - b) > max(0.2 * abs(b), 3 if count else 0)
 
 
 def compare(page, folder):

@@ -114,28 +114,69 @@ TEST(MtsTolerance, approach_takes_fine_steps_when_it_will_touch)
   }
 }
 
-// The first strikes the second, and this the third within the same step.
-TEST(MtsTolerance, what_is_struck_is_held_to_the_tolerance_by_who_strikes)
+// Forces bring together what rests: as fast as they make it, and with first touch if they can.
+TEST(MtsTolerance, what_forces_bring_together_takes_fine_steps)
 {
-  for (const double ratio : {2.0, 4.7}) {
-    const double v = ratio * sticking_speed;
-    auto after = [](double speed) {    // who is struck at rest leaves with (1 + e)/2 of it
-      return 0.5 * (speed + std::sqrt(speed * speed - sticking_speed * sticking_speed));
-    };
-    for (int n = 0; n < 8; n++) {
-      Simulation sim;
-      Scene scene;
-      scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "\nneighbor 2.5 bin\n";
-      const double first = 3.0, second = first + 1.005 + 0.1 * n / 8.0;
-      build(sim, {{first, 4.0, 4.0}, {second, 4.0, 4.0}, {second + 1.2, 4.0, 4.0}}, scene);
-      char line[200];
-      snprintf(line, sizeof(line), "timestep %.17g\nset atom 1 vx %.17g\n", 0.4 / v, v);
-      sim.run(line + std::string("fix move all nve/sphere/mts collision tolerance 0.01\nrun 2"));
-      EXPECT_EQ(sim.value("f_move[5]"), 0.0) << "found late";
-      const double exact = after(after(v));
-      EXPECT_NEAR(sim.value("vx[3]") / exact, 1.0, 0.01) << ratio << " phase " << n;
-    }
+  const double step = 20.0 / frequency, gained = std::sqrt(0.2 * slow2);    // of the approach
+  for (const double part : {0.9, 1.5}) {    // of what is allowed for
+    Simulation sim;
+    place(sim, 1.0 + part * gained * step, 0.0, "tolerance 0.002", step);
+    sim.run("variable push atom " + digits(mass * gained / step) +
+            "*(3-2*id)\nfix push all addforce v_push 0 0\nrun 0\nrun 1 pre no");
+    const double kappa = std::sqrt(8.0 * 0.002 / (part < 1.0 ? 0.2 + 0.607082 : 0.2));
+    EXPECT_EQ(sim.value("f_move[1]"), std::ceil(20.0 / kappa)) << part;
   }
+}
+
+// The first strikes the second, and this the third within the same step, which may be much smaller,
+// so that this contact is the stiffer one. e^2 = 1 - (V_s/v)^2 of each, free of our code.
+TEST(MtsTolerance, what_is_struck_is_held_to_the_tolerance)
+{
+  for (const double d : {1.0, 0.2})
+    for (const double ratio : {1.6, 2.0, 4.7}) {
+      const JkrCurve small{0.5 * d / (1.0 + d), curve.E, curve.gamma};
+      const double m3 = mass * d * d * d, m23 = mass * m3 / (mass + m3);
+      const double V_s = std::sqrt(2.0 * 0.935503 * small.F_C() * small.delta_C() / m23);
+      const double v = ratio * std::max(V_s, sticking_speed);
+      auto leaves = [](double speed, double sticking, double share) {
+        return share * (speed + std::sqrt(speed * speed - sticking * sticking));
+      };
+      const double exact = leaves(leaves(v, sticking_speed, 0.5), V_s, mass / (mass + m3));
+      for (int n = 0; n < 8; n++) {
+        Scene scene;
+        scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "\nneighbor 2.5 bin\n";
+        const double first = 3.0, second = first + 1.005 + 0.1 * n / 8.0;
+        Simulation sim;
+        build(sim, {{first, 4.0, 4.0}, {second, 4.0, 4.0}, {second + 0.7 + 0.5 * d, 4.0, 4.0, d}},
+              scene);
+        char line[200];
+        snprintf(line, sizeof(line), "timestep %.17g\nset atom 1 vx %.17g\n", 0.4 / v, v);
+        sim.run(line + std::string("fix move all nve/sphere/mts collision tolerance 0.01\nrun 2"));
+        EXPECT_EQ(sim.value("f_move[5]"), 0.0) << "found late";
+        EXPECT_NEAR(sim.value("vx[3]") / exact, 1.0, 0.001) << d << " " << ratio << " phase " << n;
+      }
+    }
+}
+
+// A bridge pulls together, within the step, what would not touch as it flies.
+TEST(MtsTolerance, what_a_bridge_pulls_together_takes_fine_steps)
+{
+  const double v = 2.0 * sticking_speed;
+  auto rebound = [&](const std::string &how) {
+    Simulation sim;
+    Scene scene;
+    scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr +
+        " bridge 0.3 100 0 0 form film\nneighbor 2.5 bin\n";
+    build(sim, {{3.0, 4.0, 4.0}, {4.0805, 4.0, 4.0}}, scene);
+    char line[200];
+    snprintf(line, sizeof(line), "timestep %.17g\nset atom 1 vx %.17g\nset atom 2 vx %.17g\n",
+             0.08 / v, 0.5 * v, -0.5 * v);
+    sim.run(line + ("fix move all nve/sphere/mts collision " + how + "\nrun 2"));
+    return (sim.value("vx[2]") - sim.value("vx[1]")) / v;
+  };
+  const double fine = rebound("auto safety 0.01");
+  EXPECT_NEAR(rebound("tolerance 0.001"), fine, 0.001);
+  EXPECT_NEAR(rebound("tolerance 0.01"), fine, 0.01);
 }
 
 // e^2 is the energy that is left: its error is T at most, that of e in the mean of phases less
