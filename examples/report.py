@@ -119,11 +119,16 @@ class Run:
         return {**row, "parameters": "; ".join(part.strip() for part in settings)}
 
 
-def read_runs(folder, pattern, make):
-    """All runs of a folder whose history's name fits the pattern; make(path) is a Run."""
+def read_runs(folder, pattern, make, keep_in=None):
+    """All runs of a folder whose history's name fits the pattern; make(path) is a Run.
+
+    `keep_in`: the example that will keep them; refuses before anything of it is replaced.
+    """
     runs = [make(path) for path in sorted(folder.glob(pattern))]
     if not runs:
         stop(folder / pattern, "missing; run the input script with -var dir first")
+    if keep_in:
+        refuse_shorter(keep_in, {run.path.stem: run.t[-1] for run in runs})
     return runs
 
 
@@ -283,8 +288,18 @@ def read_kept(example):
     return values, {row["run"]: row for row in read_csv(example / "results" / "runs.csv")}
 
 
+def refuse_shorter(example, reached):
+    """Stops if a run ended before the kept one of its name, as a quick run does; `reached` are times by names of runs."""
+    path, kept = example / "results" / "runs.csv", read_kept(example)[1]
+    for name, t in reached.items():
+        if name in kept and t < 0.999 * float(kept[name]["t"]):
+            stop(path, f"{name} is kept to t = {kept[name]['t']}, this run ended at {t:g}; nothing is kept. "
+                 "To keep it all the same delete its line there first")
+
+
 def keep(example, values, runs):
-    """Adds values and runs to those that the example has kept; its whole set."""
+    """Adds values and runs to those that the example has kept; its whole set. Refuses a run that is shorter than the kept one."""
+    refuse_shorter(example, {row["run"]: float(row["t"]) for row in runs})
     kept_values, kept_runs = read_kept(example)
     values, runs = {**kept_values, **values}, {**kept_runs, **{row["run"]: row for row in runs}}
 

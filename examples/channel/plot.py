@@ -301,7 +301,7 @@ def main():
     folder, out, kept = arguments("Draws the report's figures of the channel, and compares.", HERE)
     si, amap = read_input()
     report = read_report(HERE / "report.csv")
-    runs = sorted(read_runs(folder, "channel-phi*.aggregates", lambda path: Channel(path, si)),
+    runs = sorted(read_runs(folder, "channel-phi*.aggregates", lambda path: Channel(path, si), kept and HERE),
                   key=lambda run: float(run.phi))
     plt.rcParams.update({"font.size": 10, "axes.titlesize": 10, "axes.grid": False})
     draw_ends(runs, amap, out / "figure09.png")

@@ -77,7 +77,7 @@ def draw(runs, path):
         axis.set(xlabel="t  [L/U]", ylabel=label)
     axes[1].plot(150, 1.0, "kx", markersize=9, label="report, W = 8, phi = 100, 500")
     axes[1].axhline(0.080, color="0.5", linestyle="--", label="clean fiber, Kuwabara, W = 8")
-    axes[2].axhline(4, color="k", linestyle="--", linewidth=0.8, label="report, W = 8, phi = 500")
+    axes[2].plot((150, 800), (4, 4), color="k", linestyle="--", linewidth=0.8, label="report, W = 8, phi = 500, t > 150")
     axes[2].plot(800, 20, "kx", markersize=9, label="report, W = 8, phi = 2500")
     for axis in axes[1:]:
         axis.legend(fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), frameon=False)
@@ -135,7 +135,7 @@ def draw_dendrites(run, path):
 def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
-    runs = sorted(read_runs(folder, "fiber-*.captured", lambda path: Run(path, "fiber-")), key=parts)
+    runs = sorted(read_runs(folder, "fiber-*.captured", lambda path: Run(path, "fiber-"), kept and HERE), key=parts)
     draw(runs, out / "fiber.png")
     flow = read_grid("fiber-w8.vtkhdf", ["velocity", "inside"], folder, HERE)
     if flow:

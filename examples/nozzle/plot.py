@@ -144,17 +144,20 @@ def draw_particles(runs, columns, path):
 
 
 def draw_history(runs, path):
-    """Mean size of all aggregates over time, phi = 50, without and with adhesion of the walls."""
+    """Mean size of all aggregates over time, phi = 50, without and with adhesion of the walls; below 2 there were none yet."""
     figure, axes = plt.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
     for axis, wall in zip(axes, (False, True)):
         for run in runs:
             length, phi, adhere, clogged = parts(run)
             if phi == 50 and adhere == wall:
-                axis.plot(run.t, run.history["mean_size"], linewidth=1,
+                size = run.history["mean_size"]
+                axis.plot(run.t, np.where(size < 2, np.nan, size), linewidth=1,
                           label=f"length {length}" + kind(run) + (", clogs" if clogged == 1 else ""))
         axis.set(xlabel="t  [D/U]", ylabel="mean size of aggregates",
                  title=f"phi = 50, walls {'adhere' if wall else 'do not adhere'}")
         axis.axhline(2.4, color="k", linestyle="--", linewidth=0.8, label="report, walls do not adhere")
+        low, high = axis.get_ylim()
+        axis.set_ylim(low, high + 0.4 * (high - low))    # room for the legend
         axis.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
@@ -162,7 +165,8 @@ def draw_history(runs, path):
 def draw_profiles(groups, path):
     """Mean size of free aggregates along the axis; groups are (title, runs, label of a run).
 
-    Colours are those of phi where there are several, else of the walls; small particles are dotted, few of them dash-dotted.
+    Colours are those of phi where there are several, every other one dashed, else of the walls; small particles are dotted,
+    few of them dash-dotted.
     """
     figure, axes = plt.subplots(1, len(groups), figsize=(4.5 * len(groups), 3.6), layout="constrained",
                                 squeeze=False, sharey=True)
@@ -170,7 +174,8 @@ def draw_profiles(groups, path):
         phis = sorted({parts(run)[1] for run in runs})
         for run in runs:
             colour = f"C{phis.index(parts(run)[1])}" if len(phis) > 1 else "C1" if parts(run)[2] else "C0"
-            axis.plot(*size_along(run), linewidth=1, linestyle=LINES[kind(run)], color=colour, label=label(run))
+            dashed = len(phis) > 1 and phis.index(parts(run)[1]) % 2 and not kind(run)
+            axis.plot(*size_along(run), linewidth=1, linestyle="--" if dashed else LINES[kind(run)], color=colour, label=label(run))
         for x in {0.0, float(parts(runs[0])[0])}:
             axis.axvline(x, color="0.6", linestyle="--", linewidth=0.8)
         axis.set(xlabel="x / width of the channel", title=title)
@@ -198,7 +203,7 @@ def draw_clogs(runs, out):
 def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
-    runs = read_runs(folder, "nozzle-*.aggregates", lambda path: Run(path, "nozzle-"))
+    runs = read_runs(folder, "nozzle-*.aggregates", lambda path: Run(path, "nozzle-"), kept and HERE)
     flows = read_flows((folder, HERE))
     if flows:
         draw_entrance(flows, lambda grid: grid.fluid(grid["velocity"][..., 0]), np.linspace(0, 1.5, 16),

@@ -10,12 +10,14 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import LogLocator
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
 from report import Run, arguments, conclude, draw_pictures, read_runs, those_with, values_by_run
 
 VARIANTS = {"plain": "drag alone", "nolift": "no lift, no Magnus force", "e09": "e = 0.9", "soft": "lambda = 1.76e4"}    # names -phiPHI-VARIANT
+EARLY = {False: 3, True: 2}    # time of the report's first profile, dry and with adhesion [L/U]
 STEP, VOLUME = 0.00263, np.pi / 6 * 0.04**3    # particle step, volume of a particle; as in in.pipe
 
 
@@ -102,6 +104,10 @@ def values_of(run):
     amount = c * run.area
     shares = {"share of particles within r < 0.5": amount[run.r < 0.5].sum() / amount.sum(),
               "share of particles beyond r > 0.9": amount[run.r > 0.9].sum() / amount.sum()}
+    early = EARLY[run.adhesive]
+    if run.t[-1] > early:
+        first = run.profile(early)[0]
+        shares[f"c for r > 0.96 / mean c at t = {early}"] = first[-1] * run.area.sum() / (first @ run.area)
     if run.adhesive:
         return {**shares, **adhesive_values(run, c, v, amount.sum() * run.length / VOLUME)}
     return {**shares, **dry_values(run, c, amount.sum() / run.area.sum())}
@@ -154,7 +160,9 @@ def draw_history(runs, path, said, span=None):
             axis.axhline(value, color="k", linestyle="--", linewidth=0.8, label="report")
     for axis in axes[:2] if span else ():
         axis.set_yscale("log")
-        axis.yaxis.set_major_formatter("{x:g}")
+        axis.yaxis.set_minor_locator(LogLocator(subs=(2, 5)))
+        for set_formatter in (axis.yaxis.set_major_formatter, axis.yaxis.set_minor_formatter):
+            set_formatter("{x:g}")
     figure.legend(*axes[2].get_legend_handles_labels(), fontsize=8, frameon=False, ncol=len(runs) + 1, loc="lower center")
     figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
     figure.savefig(path, dpi=150)
@@ -175,18 +183,18 @@ def draw_sizes(runs, path):
 def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
-    runs = sorted(read_runs(folder, "pipe-*.aggregates", Pipe), key=lambda run: float(run.name.split("-")[0][3:]))
+    runs = sorted(read_runs(folder, "pipe-*.aggregates", Pipe, kept and HERE), key=lambda run: float(run.name.split("-")[0][3:]))
     ends = [(f"{run.words}, t = {times[-1]:.0f} L/U", paths[-1]) for run in runs for times, paths in [run.pictures()] if paths]
     if ends:
         draw_pictures(ends, 3, out / "particles.png", (3.3, 1.7), trim=True)
     dry, adhesive = ([run for run in runs if run.adhesive == kind] for kind in (False, True))
     if dry:
-        draw_profiles(dry, 3, out / "figure23.png", [(0.2, 0.03), (0.95, 0.008)])
+        draw_profiles(dry, EARLY[False], out / "figure23.png", [(0.2, 0.03), (0.95, 0.008)])
         draw_history(dry, out / "figure24.png", (None, None, 2.02), span=5)
     if adhesive:
         draw_history(adhesive, out / "figure25.png", (0.8 * 5080, 700, 5.5))
         draw_sizes(adhesive, out / "figure26.png")
-        draw_profiles(adhesive, 2, out / "figure27.png", peak=0.95, still=0.85)
+        draw_profiles(adhesive, EARLY[True], out / "figure27.png", peak=0.95, still=0.85)
     conclude(HERE, values_by_run(runs, values_of), [run.cost(f"{1270 * run.length:.0f} particles") for run in runs], out, kept)
 
 

@@ -102,7 +102,7 @@ def draw_air(grid, path):
 def main():
     """Reads, draws, compares."""
     folder, out, kept = arguments(__doc__, HERE)
-    runs = read_runs(folder, "radiator-*.captured", lambda path: Run(path, "radiator-"))
+    runs = read_runs(folder, "radiator-*.captured", lambda path: Run(path, "radiator-"), kept and HERE)
     draw_mesh(Mesh(), out / "figure37.png")
     air = read_grid("radiator.vtkhdf", ["velocity", "inside"], folder, HERE)
     if air:

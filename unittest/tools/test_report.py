@@ -79,6 +79,26 @@ class Verdict(unittest.TestCase):
         self.assertEqual(report.verdict({**row, "high": NAN}, report.Ours(2.5, 2.0, 60)), "agrees")
 
 
+class Keep(unittest.TestCase):
+    """What an example keeps: a run to t = 100, which a shorter one of its name does not replace."""
+
+    def test_shorter_run_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            example, key = Path(folder), ("a", "share")
+
+            def keep(t, share):
+                report.keep(example, {key: report.Ours(share, t=t)}, [{"run": "case-a", "t": f"{t:g}"}])
+
+            keep(100, 0.5)
+            with self.assertRaises(SystemExit) as refused:
+                keep(8, 0.1)
+            self.assertRegex(str(refused.exception.code), "case-a is kept to t = 100, this run ended at 8; nothing is kept")
+            self.assertEqual(report.read_kept(example)[0][key].value, 0.5)
+            for t, share in ((100, 0.6), (120, 0.7)):
+                keep(t, share)
+                self.assertEqual(report.read_kept(example)[0][key].value, share)
+
+
 class Times(unittest.TestCase):
     """examples/report: what a full variant takes, where it has been measured to its end."""
 
