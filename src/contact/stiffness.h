@@ -74,7 +74,7 @@ struct Stiffest {
   double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
   ContactMode mode = NONE;    // of the contact that demands it
 
-  // A pair that does not touch, of bodies with a sum of accelerations. If it will within the step as
+  // A pair that does not touch, of bodies with a sum of accelerations. If it will in the step as
   // it flies, first touch sets U(0) - U(rest) = 0.607082 F_C delta_C free. Where neither that nor
   // what moves in contacts now can bring it together, which nothing foresees, stable steps will do.
   void include_near(const StiffestMode &contact, const Approach &approach,
