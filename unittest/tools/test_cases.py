@@ -36,7 +36,11 @@ class Cases(unittest.TestCase):
                 "</properties></testcase>" for name, records in members)
             (self.root / f"{suite}.xml").write_text(f"<testsuites><testsuite>{cases}</testsuite></testsuites>")
         program = self.root / "build/unittest/test_styles"
-        program.write_text('#!/bin/sh\nsuite=${1#--gtest_filter=}\n'
+        listed = "".join(f"{suite}.\n" + "".join(f"  {name}\n" for name, _ in members)
+                         for suite, members in tests.items())
+        program.write_text('#!/bin/sh\n'
+                           f'[ "$1" != --gtest_list_tests ] || {{ printf "{listed}"; exit; }}\n'
+                           'suite=${1#--gtest_filter=}\n'
                            f'cp {self.root}/${{suite%%.*}}.xml "${{2#--gtest_output=xml:}}"\n')
         program.chmod(0o755)
         (self.root / "unittest/styles/test.cpp").write_text(source)
@@ -84,6 +88,38 @@ class Cases(unittest.TestCase):
         self.assertIn("unittest/styles/test.cpp: no test of the case records C2 *: forgotten", text)
         # a part of the list says nothing of the other cases
         self.assertEqual(self.run_cases(tests, 'record("C2 *: forgotten");\n', ["--only=1"])[0], 0)
+
+    def test_pattern_without_a_test_fails(self):
+        (self.root / "unittest/stability/cases.txt").write_text(LIST.replace("A.* |", "A.a*:A.forgotten* |"))
+        tests = {"A": [("a", {"C1 verlet: error": "0.5|0|1"})], "B": [("b", {"C2 mts: error": "0|0|1"})]}
+        status, _, rows = self.run_cases(tests)
+        self.assertEqual(status, 1)
+        self.assertIn(["1", "first", "styles:A.forgotten*: none", "no such test", "NO"], rows)
+        self.assertEqual([row[2] for row in rows if row[4] == "NO"], ["styles:A.forgotten*: none"])
+
+    def test_rows_of_whole_flows(self):
+        (self.root / "unittest/stability/cases.txt").write_text(LIST + "3 | third | styles:B.* | + flow.txt\n")
+        (self.root / "bench/results").mkdir(parents=True)
+        same = "  -0.01 +- 0.01 y"
+        (self.root / "bench/results/flow.txt").write_text(
+            "words\nscheme           setting  seeds\nsingle rate      1   8   -  -  -  -\n" +
+            "".join(f"{scheme}  {seeds} {same} -3.2 +- 2.1 ? {size} {same} 0 3.9\n" for scheme, seeds, size in
+                    (("respa            N=40", 3, "+4.0 +- 2.7 ?"), ("mts tolerance    0.01", 8, "+0.5 +- 0.2 y"),
+                     ("mts auto, f2     0.05", 3, "+3.5 +- 1.2 n"))))
+        tests = {"A": [("a", {"C1 verlet: error": "0.5|0|1"})],
+                 "B": [("b", {"C2 mts: error": "0|0|1", "C3 verlet: error": "0|0|1", "C3 respa: error": "0|0|1",
+                              "C3 mts: error": "0|0|1"})]}
+        status, text, rows = self.run_cases(tests)
+        self.assertEqual(status, 0, text)
+        flows = [row for row in rows if "t = 20" in row[2]]
+        self.assertEqual([row[2].split(":")[0] for row in flows],
+                         ["respa, N=40", "mts tolerance, 0.01", "mts auto, f2, 0.05"])
+        self.assertEqual([row[3] for row in flows], ["+4.0 +- 2.7 %", "+0.5 +- 0.2 %", "+3.5 +- 1.2 %"])
+        self.assertEqual([row[4].split(",")[0] for row in flows], ["undecided", "yes", "NO"])
+        self.assertIn("1 undecided", text)
+        # a file without such rows is none
+        (self.root / "bench/results/flow.txt").write_text("words\n")
+        self.assertEqual(self.run_cases(tests)[0], 1)
 
     def test_shares_of_energy_make_a_table(self):
         shares = "|".join(["0.1"] * 9 + ["1e-5"])
