@@ -1,4 +1,6 @@
 """Tables and plot of speed_error.py."""
+import sys
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -231,14 +233,26 @@ def draw_channel_panel(axis, rows):
     decades(axis)
 
 
+def nothing_timed(rows):
+    """Whether there is nothing to draw errors over; says so."""
+    missing = not any("time" in row for _, row in rows)
+    if missing:
+        print("no plot: nothing has been timed yet, --measure times does that", file=sys.stderr)
+    return missing
+
+
 def draw_impacts(args, elastic, damped, path):
     """Errors of e and of the sticking velocity over wall-clock time."""
+    if nothing_timed([*elastic, *(damped["rows"] if damped else [])]):
+        return
     draw([lambda axis: draw_impacts_panel(axis, elastic, damped),
           lambda axis: draw_sticking_panel(axis, args, elastic, damped)], path)
 
 
 def draw_channel(rows, path):
     """Differences from single rate over wall-clock time."""
+    if nothing_timed(rows):
+        return
     draw([lambda axis: draw_channel_panel(axis, rows)], path)
 
 
