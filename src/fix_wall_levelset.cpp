@@ -221,6 +221,11 @@ int FixWallLevelset::level() const
 
 /* ---------------------------------------------------------------------- */
 
+std::string FixWallLevelset::of_file() const
+{
+  return grid ? " of file " + grid->name() : "";
+}
+
 // Particles that were put into the wall or behind it: named here, where a run begins, since what
 // comes of them in it looks like something else.
 void FixWallLevelset::check_places()
@@ -251,8 +256,7 @@ void FixWallLevelset::check_places()
                "{} {}: particles with the centre outside the fluid: {} (IDs {}), up to {:.3g} "
                "behind the wall; is the wall{} where it should be, and the fluid on its right "
                "side? If so, {}",
-               command, id, behind.number(), behind.ids(), behind.deepest(),
-               grid ? " of file " + grid->name() : "", cure);
+               command, id, behind.number(), behind.ids(), behind.deepest(), of_file(), cure);
   pressed.gather(world);
   if (pressed.number() > 0 && comm->me == 0)
     error->warning(FLERR,

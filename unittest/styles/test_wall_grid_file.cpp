@@ -147,6 +147,21 @@ TEST(WallGridFile, walls_that_no_particle_touches_give_a_warning)
   }
 }
 
+// Behind the wall in the beginning or, sent there, in the course of a run.
+TEST(WallGridFile, errors_of_places_name_the_file)
+{
+  for (const bool later : {false, true}) {
+    GridScene scene(2, 0.1, {{"distance", plane(0, 1, 0, 2.0)}}, {{4.0, later ? 4.0 : 1.0, 0.0}},
+                    jkr);
+    const auto text =
+        scene.sim.error_of(later ? "fix nve all nve/sphere\nvelocity all set 0 -1e5 0\n"
+                                   "timestep 3e-5\nneigh_modify delay 0 every 1 check no\nrun 5"
+                                 : "run 0");
+    EXPECT_NE(text.find("behind the wall"), std::string::npos) << text;
+    EXPECT_NE(text.find(" of file " + scene.file.path), std::string::npos) << text;
+  }
+}
+
 TEST(WallGridFile, numbers_that_are_no_distances_are_refused)
 {
   const auto error_of = [](const Shape &shape) {
