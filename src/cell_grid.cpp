@@ -52,6 +52,24 @@ void CellGrid::set_up(int reach)
   }
 }
 
+// Throws if there is no memory for what is to come: the cells, those that are sent and received,
+// and LAMMPS's lists of these, a number for each, whose own error names no command. The lists are
+// of slabs along each axis, on both of its sides, that are as wide as the cells before along it.
+void CellGrid::try_memory() const
+{
+  double bytes = sizeof(double) * columns, lists = 0.0;
+  for (int c = 0; c < 3; c++) {
+    double cells = 2.0 * (lo[c] - first[c] + last[c] - hi[c]);
+    for (int d = 0; d < 3; d++)
+      if (d != c) cells *= (d < c ? last[d] - first[d] : hi[d] - lo[d]) + 1.0;
+    lists += sizeof(int) * cells;
+    bytes *= last[c] - first[c] + 1.0;
+  }
+  // so that no compiler leaves it out
+  void *volatile trial = ::operator new(static_cast<std::size_t>(std::max(bytes + lists, 1.0)));
+  ::operator delete(trial);
+}
+
 // to other ranks: what a cell has
 void CellGrid::share_anew(int reach)
 {
@@ -85,6 +103,7 @@ void CellGrid::allocate(int reach)
     grid2d->set_stencil_atom(reach, reach);
     grid2d->setup_grid(lo[0], hi[0], lo[1], hi[1], first[0], last[0], first[1], last[1]);
     lo[2] = hi[2] = first[2] = last[2] = 0;
+    try_memory();
     grid2d->setup_comm(most_out, most_in);
   } else {
     grid3d = std::make_unique<Grid3d>(lmp, lmp->world, n[0], n[1], n[2]);
@@ -92,6 +111,7 @@ void CellGrid::allocate(int reach)
     grid3d->set_stencil_atom(reach, reach);
     grid3d->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], first[0], last[0], first[1],
                        last[1], first[2], last[2]);
+    try_memory();
     grid3d->setup_comm(most_out, most_in);
   }
   cell_volume = 1.0;

@@ -104,6 +104,7 @@ class CellGrid {
   std::vector<double ***> cell_planes;
 
   void check_size(int reach) const;
+  void try_memory() const;
   void allocate(int reach);
   void point_to_values();
   // weights of cell base and the next along each axis

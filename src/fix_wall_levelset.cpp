@@ -221,6 +221,11 @@ int FixWallLevelset::level() const
 
 /* ---------------------------------------------------------------------- */
 
+std::string FixWallLevelset::of_file() const
+{
+  return grid ? " of file " + grid->name() : "";
+}
+
 // Particles that were put into the wall or behind it: named here, where a run begins, since what
 // comes of them in it looks like something else.
 void FixWallLevelset::check_places()
@@ -238,7 +243,7 @@ void FixWallLevelset::check_places()
         least = std::min(least, surfaces[s].distance(y));
     const double overlap = (r - least) / r;
     if (least <= 0.0)
-      behind.add(atom->tag[i], -least);
+      behind.add(atom->tag[i], 0.0 - least);    // no -0
     else if (overlap > much && overlap > 2.0 * overlap_at_rest)
       pressed.add(atom->tag[i], overlap);
   }
@@ -249,9 +254,9 @@ void FixWallLevelset::check_places()
   if (behind.number() > 0)
     error->all(FLERR, Error::NOLASTLINE,
                "{} {}: particles with the centre outside the fluid: {} (IDs {}), up to {:.3g} "
-               "behind the wall; is the wall where it should be, and the fluid on its right side? "
-               "If so, {}",
-               command, id, behind.number(), behind.ids(), behind.deepest(), cure);
+               "behind the wall; is the wall{} where it should be, and the fluid on its right "
+               "side? If so, {}",
+               command, id, behind.number(), behind.ids(), behind.deepest(), of_file(), cure);
   pressed.gather(world);
   if (pressed.number() > 0 && comm->me == 0)
     error->warning(FLERR,

@@ -80,6 +80,7 @@ class FixWallLevelset : public FixContacts {
   static constexpr const char *command = "Fix wall/levelset";
   std::vector<apf::Surface> surfaces;
   std::unique_ptr<WallGrid> grid;    // where surfaces come from a file
+  std::string of_file() const;       // for errors: its name, if there is one
   WallMotion motion;
   double resolution = 0.05;        // error of a gridded distance in units of delta_C
   double overlap_at_rest = 0.0;    // of the smallest particle, in units of its radius

@@ -111,9 +111,9 @@ void FixWallLevelset::touch(int i, int surface, bool foreseen)
   if (foot.distance > atom->radius[i]) return;
   if (foot.distance <= 0.0)
     error->one(FLERR, Error::NOLASTLINE,
-               "{} {}: the centre of atom {} is outside the fluid, {} behind the wall; put it "
+               "{} {}: the centre of atom {} is outside the fluid, {} behind the wall{}; put it "
                "inside, or use a smaller timestep",
-               command, id, atom->tag[i], -foot.distance);
+               command, id, atom->tag[i], -foot.distance, of_file());
   const Marks others = zones_of(i);
   close(i, surface, apf::ContactHistory());
   note_touch(approach_of(i, foot), atom->radius[i], contacts.mode(contacts.size() - 1), foreseen);

@@ -56,9 +56,10 @@ void FixWallLevelset::copy_rows(apf::Bodies &to, int k, int i, int surface)
 void FixWallLevelset::copy_rows(apf::Bodies &to, int k, int i, const apf::Foot &foot)
 {
   if (foot.distance <= 0.0 || !foot.exists)
-    error->one(FLERR, Error::NOLASTLINE,
-               "{} {}: the centre of atom {} passed the wall; use a smaller timestep or a larger E",
-               command, id, atom->tag[i]);
+    error->one(
+        FLERR, Error::NOLASTLINE,
+        "{} {}: the centre of atom {} passed the wall{}; use a smaller timestep or a larger E",
+        command, id, atom->tag[i], of_file());
   to.copy_row(particles(), i, 2 * k);
   to.place(2 * k + 1, foot.at);
   if (!motion.pose.moves) return;

@@ -22,6 +22,7 @@ class GridFile : protected Pointers {
   // All ranks call these.
   void check_box(int iarg) const;    // that it is still the box that the grid was made for
   std::string extent() const;        // for errors
+  const std::string &name() const { return path; }
 
  protected:
   // command: for errors, as "Fix flow/field"; iarg: the file's word in it

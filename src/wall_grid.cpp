@@ -1,6 +1,7 @@
 #include "wall_grid.h"
 
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "math_extra.h"
 
@@ -43,6 +44,10 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
     });
   MPI_Allreduce(MPI_IN_PLACE, reaches.data(), reaches.size(), MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, jumps.data(), 3 * jumps.size(), MPI_DOUBLE, MPI_MAX, world);
+  for (size_t n = 0; n < pieces.size(); n++)
+    if (!(reaches[n] > 0.0))
+      error->all(FLERR, position, "{} file {}: array {} is > 0 nowhere: it must be so in the fluid",
+                 command, path, pieces[n]);
   file.reset();
   position = Error::NOLASTLINE;
 }
@@ -104,7 +109,23 @@ apf::GridSurvey WallGrid::looked_at(const std::vector<apf::Surface> &all, int n,
       if (&other != &all[n] && other.grid.distance(x) < nearest - finest) return false;
     return true;
   };
-  if (comm->me == 0) survey = apf::GridSurvey::of(lattice, all[n].grid, nearest, farthest, reached);
+  // the same, for fields that need not be distances: by the way along their slope, in the box
+  const auto comes = [&](const double *x) {
+    for (int k = 0; k < lattice.dims; k++)
+      if (domain->boundary[k][0] == 1 && !(x[k] >= domain->boxlo[k] && x[k] <= domain->boxhi[k]))
+        return false;
+    for (const auto &one : all) {
+      double slope[3];
+      const double phi = one.grid.distance(x, slope);
+      if (phi < (nearest - finest) * MathExtra::len3(slope)) return false;
+    }
+    return true;
+  };
+  if (comm->me == 0) {
+    survey = apf::GridSurvey::of(lattice, all[n].grid, nearest, farthest, reached);
+    survey.crosses = survey.nodes == 0 &&
+        apf::GridSurvey::crossing(lattice, all[n].grid, smallest, comes, survey.crosses_at);
+  }
   MPI_Bcast(&survey, sizeof(survey), MPI_BYTE, 0, world);
   return survey;
 }
@@ -120,22 +141,28 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
   for (size_t n = 0; n < pieces.size(); n++) {
     const auto survey = looked_at(all, n, smallest, 1.05 * largest + widest);
     const std::string where = fmt::format("{} file {}: array {}", command, path, pieces[n]);
-    if (survey.nodes == 0) {
-      if (comm->me == 0)
-        error->warning(FLERR,
-                       "{} has no node within {} to {} of the wall, where particles of these radii "
-                       "would touch it: do their diameters and the grid have the same unit?",
-                       where, smallest, largest);
-      continue;
-    }
     const auto at = [](const double *x) {
       return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
     };
+    if (survey.nodes == 0) {
+      const std::string none =
+          fmt::format("{} has no node within {} to {} of the wall, where particles of these radii "
+                      "would touch it",
+                      where, smallest, largest);
+      if (survey.crosses)
+        error->all(FLERR, Error::NOLASTLINE,
+                   "{}, although its sign changes at {}: it must be a distance, in the unit of the "
+                   "diameters",
+                   none, at(survey.crosses_at));
+      if (comm->me == 0)
+        error->warning(FLERR, "{}: do their diameters and the grid have the same unit?", none);
+      continue;
+    }
     // an edge's rim, seen from the distance of a radius, has a jump of curvature of 1/radius
     const double of_edges = std::max(error_allowed / (survey.edge_spacing * survey.edge_spacing),
                                      2.0 * apf::GridDistance::error_constant / smallest);
-    const bool kinked = survey.edge_bend > of_edges;
-    if (survey.slope_error > crease || kinked)
+    const bool kinked = !(survey.edge_bend <= of_edges);
+    if (!(survey.slope_error <= crease) || kinked)
       error->all(FLERR, Error::NOLASTLINE,
                  "{} is not a smooth distance at {}, where particles may touch: the size of its "
                  "slope differs from 1 by {:.2g}; concave corners need an array for each side, "
@@ -143,7 +170,7 @@ void WallGrid::check(std::vector<apf::Surface> &all, double smallest, double lar
                  "particles",
                  where, at(kinked ? survey.edge_at : survey.slope_at), survey.slope_error,
                  smallest / 3.0);
-    if (survey.error > error_allowed)
+    if (!(survey.error <= error_allowed))
       error->all(FLERR, Error::NOLASTLINE,
                  "{} is known to {:.3g} only at {}, where particles may touch, and {:.3g} is asked "
                  "for: use a spacing of {:.3g} instead of {:.3g}, or keyword resolution",
@@ -167,14 +194,14 @@ void WallGrid::check_bridges(const std::vector<apf::Surface> &all, double smalle
   for (size_t n = 0; n < pieces.size(); n++) {
     const std::string where = fmt::format("{} file {}: array {}", command, path, pieces[n]);
     const double needed = farthest + of_clipping * widest;
-    if (all[n].reach < needed)
+    if (!(all[n].reach >= needed))
       error->all(FLERR, Error::NOLASTLINE,
                  "{} knows distances up to {:.4g} from the wall, and liquid bridges hold particles "
                  "whose centres are up to {:.4g} from it: write the file with distances up to "
                  "{:.4g} or more",
                  where, all[n].reach, farthest, needed);
     const auto survey = looked_at(all, n, smallest, farthest);
-    if (survey.slope_error > crease)
+    if (!(survey.slope_error <= crease))
       error->all(
           FLERR, Error::NOLASTLINE,
           "{} is not a smooth distance at ({:.6g}, {:.6g}, {:.6g}), where liquid bridges may "

@@ -39,7 +39,7 @@ class VtkhdfFile {
   void check(const std::string &array, int components) const;
 
   // Reads a frame (0 if the file is steady) of an array of float or double with so many components
-  // per node: the lowest layers along z, components fastest, then x, y, z. All values are finite.
+  // per node: the lowest layers along z, components fastest, then x, y, z. All are within +-1e100.
   std::vector<double> read(const std::string &array, int components, int frame, int layers) const;
 
  private:
@@ -66,7 +66,7 @@ class VtkhdfFile {
   std::uint64_t frame_offset(const std::string &array, int frame) const;
   Shape shape(const std::string &array, const std::vector<std::uint64_t> &dims, int components,
               int frame) const;
-  void check_finite(const std::string &array, int components, int frame,
+  void check_values(const std::string &array, int components, int frame,
                     const std::vector<double> &values) const;
 };
 

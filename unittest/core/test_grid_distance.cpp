@@ -1,6 +1,6 @@
 // Distances from a grid against the shapes they were taken from.
 
-#include "wall/grid_distance.h"
+#include "wall/grid_survey.h"
 
 #include <gtest/gtest.h>
 
@@ -194,4 +194,63 @@ TEST(GridDistance, outside_of_the_grid_its_border_counts)
   EXPECT_NEAR(field.grid.distance(inside), 2.5, 1e-14);
   const double lost[3] = {std::nan(""), 0.0, 0.0};    // for LAMMPS to find: no crash here
   EXPECT_NEAR(field.grid.distance(lost), 0.5, 1e-14);
+}
+
+// What is no number is the largest error, wherever it is met.
+TEST(GridSurvey, a_distance_that_is_no_number_is_infinitely_wrong)
+{
+  Field field(3, 13, 4.0, [](const double *x) {
+    return x[1];
+  });
+  const auto everywhere = [](const double *) {
+    return true;
+  };
+  const auto survey = [&] {
+    return apf::GridSurvey::of(field.lattice, field.grid, 0.45, 1.5, everywhere);
+  };
+  EXPECT_GT(survey().nodes, 0);
+  EXPECT_LT(survey().slope_error, 1e-12);
+  const int layer = field.lattice.cells(0) + 3;    // of coefficients, one of them before the nodes
+  field.coefficients[7 + layer * (9 + layer * 7)] = std::nan("");    // of the node at (0, 2/3, 0)
+  EXPECT_EQ(survey().slope_error, HUGE_VAL);
+  EXPECT_EQ(std::max(survey().error, survey().edge_bend), HUGE_VAL);
+}
+
+// A wall at the height 0.2, or on the border at -2, for a sphere of radius 0.5 and any scale of its
+// field; none where the field has one sign, or where no centre comes.
+TEST(GridSurvey, walls_are_found_on_any_scale)
+{
+  const auto found = [](const Shape &shape, double highest) {
+    const Field field(3, 9, 4.0, shape);
+    double at[3] = {};
+    const bool is_there = apf::GridSurvey::crossing(
+        field.lattice, field.grid, 0.5,
+        [&](const double *x) {
+          return x[1] <= highest;
+        },
+        at);
+    return is_there ? at[1] : HUGE_VAL;
+  };
+  for (const double height : {0.2, -2.0})
+    for (const double scale : {1e-320, 1e-200, 0.01, 1.0, 10.0, 1e99}) {
+      const auto wall = [=](const double *x) {
+        return scale * (x[1] - height);
+      };
+      const double first = height > 0.0 ? 0.5 : -1.5;
+      EXPECT_EQ(found(wall, 2.0), first) << height << " " << scale;
+      EXPECT_EQ(found(wall, height + 0.4), HUGE_VAL) << height << " " << scale;
+    }
+  EXPECT_EQ(found(
+                [](const double *x) {
+                  return x[1] > 0.0 ? 10.0 : -10.0;
+                },
+                2.0),
+            0.5);
+  for (const double side : {1.0, -1.0, 0.0})
+    EXPECT_EQ(found(
+                  [=](const double *x) {
+                    return side * (x[1] + 3.0);
+                  },
+                  2.0),
+              HUGE_VAL);
 }

@@ -316,14 +316,21 @@ TEST_F(Vtkhdf, errors_of_arrays)
 
 TEST_F(Vtkhdf, numbers_that_are_none_are_located)
 {
-  for (const double bad : {NAN, INFINITY}) {
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e308, -1.7e308, 1.001e100, -1.001e100}) {
     write([=](VtkhdfWriter &w) {
       w.field("u", 3, [=](const double *x, double, double *u) {
         u[1] = x[0] == 0.0 && x[1] == 1.0 && x[2] == 8.0 ? bad : 0.0;
       });
     });
-    expect(error(0, "u"), {"array u is", "node (2 1 3)", "position (0 1 8)"});
+    expect(error(0, "u"),
+           {"array u is", "node (2 1 3)", "position (0 1 8): must be within +-1e+100"});
   }
+  write([](VtkhdfWriter &w) {
+    w.field("u", 3, [](const double *x, double, double *u) {
+      u[1] = x[0] == 0.0 ? 1e100 : -1e100;
+    });
+  });
+  EXPECT_EQ(error(0, "u"), "");
   write(
       [](VtkhdfWriter &w) {
         w.field("u", 3,

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace fuzz {
@@ -32,27 +33,48 @@ thermo 1
 variable zero equal 0.0
 )";
 
-// walls below and above the box and a shear flow between them, which a frame later is faster
-inline void write_grids()
+// What a file has at a position in place of a number.
+using Spoil = std::function<double(const double *x, double right)>;
+inline double as_it_is(const double *, double right)
 {
-  const VtkhdfWriter::Counts n = {9, 9, 9};
-  const VtkhdfWriter::Triple origin = {0, 0, 0}, spacing = {1, 1, 1};
-  VtkhdfWriter walls("walls.vtkhdf", n, origin, spacing), flow("flow.vtkhdf", n, origin, spacing);
-  walls.field("distance_floor", 1, [](const double *x, double, double *s) {
-    *s = x[1];
+  return right;
+}
+
+inline const std::string walls_file = "walls.vtkhdf", flow_file = "flow.vtkhdf";
+inline const VtkhdfWriter::Counts grid_nodes = {9, 9, 9};
+inline const VtkhdfWriter::Triple grid_origin = {0, 0, 0}, grid_spacing = {1, 1, 1};
+
+// walls below and above the box
+inline void write_walls(const std::string &path, const Spoil &floor, const Spoil &lid)
+{
+  VtkhdfWriter walls(path, grid_nodes, grid_origin, grid_spacing);
+  walls.field("distance_floor", 1, [&](const double *x, double, double *s) {
+    *s = floor(x, x[1]);
   });
-  walls.field("distance_lid", 1, [](const double *x, double, double *s) {
-    *s = 8.0 - x[1];
+  walls.field("distance_lid", 1, [&](const double *x, double, double *s) {
+    *s = lid(x, 8.0 - x[1]);
   });
-  flow.field("distance", 1, [](const double *x, double, double *s) {
-    *s = std::min(x[1], 8.0 - x[1]);
+}
+
+// a shear flow between them, which a frame later is faster
+inline void write_flow(const std::string &path, const Spoil &distance, const Spoil &velocity)
+{
+  VtkhdfWriter flow(path, grid_nodes, grid_origin, grid_spacing);
+  flow.field("distance", 1, [&](const double *x, double, double *s) {
+    *s = distance(x, std::min(x[1], 8.0 - x[1]));
   });
   flow.steps({0.0, 1e-5});
   flow.field("velocity", 3,
-             [](const double *x, double t, double *u) {
-               u[0] = x[1] * (1.0 + 1e4 * t);
+             [&](const double *x, double t, double *u) {
+               u[0] = velocity(x, x[1] * (1.0 + 1e4 * t));
              },
              {0.0, 1e-5});
+}
+
+inline void write_grids()
+{
+  write_walls(walls_file, as_it_is, as_it_is);
+  write_flow(flow_file, as_it_is, as_it_is);
 }
 
 // what parts of the words of a command need

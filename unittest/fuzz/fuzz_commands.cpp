@@ -5,6 +5,9 @@
 // forces that are numbers are counted apart: LAMMPS says that it lost them, which says nothing of
 // the command.
 //
+// Half of the commands that name a file of a wall or a flow are right, but the numbers in the file
+// are not: then the message must name the file.
+//
 //   fuzz_commands NUMBER [SEED] [TEXT]    TEXT: only commands with it; prints all messages
 
 #include "child.h"
@@ -12,6 +15,7 @@
 #include "input_folder.h"
 #include "simulation.h"
 #include "spoil.h"
+#include "spoilt_grids.h"
 
 #include "comm.h"
 
@@ -252,6 +256,21 @@ void check_rule()
   fuzz::require(complaint(right, keyword).empty(), right);
 }
 
+// What is done about a file with wrong numbers: particles may be lost in a flow that is too fast.
+Outcome try_spoilt(Simulation &sim, const fuzz::SpoiltGrids::Spoilt &spoilt)
+{
+  const std::string forces = "fix drag all flow/force air drag stokes torque yes lift saffman "
+                             "magnus yes added_mass yes pressure yes";
+  auto outcome = try_command(sim, spoilt.command, spoilt.is_wall ? "" : forces);
+  if (outcome.kind == Outcome::REFUSED && outcome.text.find("spoilt.vtkhdf") == std::string::npos)
+    return {Outcome::FAILED, "does not name the file: " + outcome.text};
+  if (outcome.kind == Outcome::ACCEPTED && spoilt.wrong)
+    return {Outcome::FAILED, "should be refused, " + outcome.text};
+  if (outcome.kind == Outcome::ACCEPTED && spoilt.is_wall && !outcome.text.empty())
+    return {Outcome::FAILED, "at a wall " + outcome.text};
+  return outcome;
+}
+
 double largest_number(const std::string &command)
 {
   double largest = 0.0;
@@ -285,6 +304,7 @@ int main(int argc, char **argv)
   std::vector<std::string> all;
   for (const auto &one : fuzz::commands) all.push_back(one.command);
   fuzz::Mutator mutator(seed, all);
+  fuzz::SpoiltGrids spoiler(seed);
   int tried = 0, lost = 0, count[3] = {};
   std::map<std::string, int> messages;
   const int each = std::max<int>(1, number / std::size(fuzz::commands));
@@ -294,12 +314,17 @@ int main(int argc, char **argv)
     sim.run(fuzz::scene + one.before);
     for (int n = 0; n <= each; n++, tried++) {
       fuzz::Change change;
-      const std::string command = n ? mutator.mutate(one.command, one.keep, &change) : one.command;
+      const bool in_file = n % 2 && fuzz::SpoiltGrids::can(one.command);
+      fuzz::SpoiltGrids::Spoilt spoilt;
+      if (in_file) spoilt = spoiler.write(one.command);
+      const std::string command = in_file ? spoilt.command + "  # file: " + spoilt.what
+          : n                             ? mutator.mutate(one.command, one.keep, &change)
+                                          : one.command;
       if (largest_number(command) > one.most) continue;
-      Outcome outcome = try_command(sim, command, one.after);
+      Outcome outcome = in_file ? try_spoilt(sim, spoilt) : try_command(sim, command, one.after);
       if (n == 0 && (outcome.kind != Outcome::ACCEPTED || !outcome.text.empty()))
         outcome = {Outcome::FAILED, "should be right: " + outcome.text};
-      else if (outcome.kind == Outcome::REFUSED && one.ours) {
+      else if (outcome.kind == Outcome::REFUSED && one.ours && !in_file) {
         if (!says_what_is_wrong(outcome.text, command))
           outcome = {Outcome::FAILED, "does not say what is wrong: " + outcome.text};
         else if (change.is_one && outcome.text.compare(0, in_run.size(), in_run) != 0)

@@ -3,6 +3,7 @@
 
 #include "concentration_scene.h"
 #include "criterion.h"
+#include "fuzz/child.h"
 
 #include <array>
 
@@ -274,6 +275,27 @@ TEST(ConcentrationErrors, name_what_is_wrong)
     EXPECT_NE(text.find(row[1]), std::string::npos) << row[0] << ": " << text;
   }
 }
+
+#ifdef APF_FFTW
+// 2 Gbytes are too few for LAMMPS's lists of cells alone, whose own error names no command.
+TEST(ConcentrationErrors, grids_for_which_there_is_no_memory_are_named)
+{
+  if (!fuzz::memory_is_bounded) GTEST_SKIP() << "the sanitizer's own memory is larger";
+  Simulation sim;
+  sim.run(one("5 5 5"));
+  const auto ended = fuzz::in_child(
+      [&](int out) {
+        const auto text = sim.error_of("fix c all flow/concentration 40 1000000 40 cloud 0.8 "
+                                       "method fft");
+        return write(out, text.data(), text.size()) < 0;
+      },
+      20, rlim_t(2) << 30);
+  EXPECT_NE(ended.text.find("Fix c flow/concentration: no memory for a grid of 40 x 1000000 x 40 "
+                            "cells"),
+            std::string::npos)
+      << ended.death << ended.text;
+}
+#endif
 
 // Cells of 1. A cloud of 1e-9 is a point in one of them; the volume there is still right.
 TEST(ConcentrationErrors, a_cloud_that_is_small_for_its_cells_gives_a_warning)

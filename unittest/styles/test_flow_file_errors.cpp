@@ -8,7 +8,7 @@
 TEST(FlowFile, errors_name_what_is_wrong)
 {
   const TemporaryFile good("apf_good"), bad("apf_bad"), small("apf_small"), flat("apf_flat"),
-      half("apf_half"), short_wall("apf_short_wall"), no_fluid("apf_no_fluid");
+      half("apf_half"), short_wall("apf_short_wall"), no_fluid("apf_no_fluid"), huge("apf_huge");
   good.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
     w.field("velocity", 3, parabola);
   });
@@ -29,6 +29,11 @@ TEST(FlowFile, errors_name_what_is_wrong)
   no_fluid.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
     w.field("velocity", 3, parabola);
     w.array("distance", {3, 3, 3}, std::vector<double>(27, -1.0));
+  });
+  huge.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, [](const double *x, double, double *u) {
+      u[0] = x[1] == 5.0 ? -1e308 : 1.0;
+    });
   });
   short_wall.write({3, 3, 2}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
     w.field("velocity", 3, parabola);
@@ -51,6 +56,9 @@ TEST(FlowFile, errors_name_what_is_wrong)
        "array distance must have shape [2][3][3] (z, y, x) as WholeExtent says, got [2][3][4]",
        short_wall.path},
       {file + no_fluid.path + fluid, "array distance is > 0 nowhere", no_fluid.path},
+      {file + huge.path + fluid,
+       "array velocity is -1e+308 at node (0 1 0), position (0 5 0): must be within +-1e+100",
+       huge.path},
       {file + flat.path + fluid, "3d simulations need 2 or more nodes along z, got 1", flat.path},
       {file + good.path + " density 1", "requires keyword viscosity", ""},
       {file + good.path + " loop", "fix flow/field loop command: missing argument", ""},

@@ -89,6 +89,104 @@ TEST(WallGridFile, kinks_where_particles_touch_are_refused)
   }
 }
 
+// No node of theirs is where particles touch, but there is a wall.
+TEST(WallGridFile, walls_whose_distances_have_another_scale_are_refused)
+{
+  using Shapes = std::map<std::string, Shape>;
+  const auto error_of = [](const Shapes &shapes) {
+    GridScene scene(2, 0.4, shapes, {{4.0, 4.0, 0.0}}, jkr);
+    return scene.sim.error_of("run 0");
+  };
+  const auto times = [](double factor, const Shape &shape) {
+    return [=](const double *x) {
+      return factor * shape(x);
+    };
+  };
+  const std::string no_node = "array distance has no node within 0.5 to 0.5 of the wall",
+                    sign = "although its sign changes at (";
+  for (const double height : {1.0, 0.0})
+    for (const double factor : {1e-300, 1e-2, 10.0, 1e98}) {
+      const auto text = error_of({{"distance", times(factor, plane(0, 1, 0, height))}});
+      EXPECT_NE(text.find(no_node), std::string::npos) << factor << text;
+      EXPECT_NE(text.find(sign), std::string::npos) << factor << text;
+    }
+  const auto step = [](const double *x) {
+    return x[1] > 1.0 ? 10.0 : -10.0;
+  };
+  EXPECT_NE(error_of({{"distance", step}}).find(sign), std::string::npos);
+  const auto lid = [](const double *x) {
+    return 8.0 - x[1];
+  };
+  for (const double factor : {1e-2, 1e2}) {
+    const auto text = error_of({{"distance_floor", times(factor, plane(0, 1, 0, 0.0))},
+                                {"distance_lid", times(factor, lid)}});
+    EXPECT_NE(text.find(sign), std::string::npos) << factor << text;
+  }
+}
+
+// Walls that are outside of the box, or where no particle fits: a warning.
+TEST(WallGridFile, walls_that_no_particle_touches_give_a_warning)
+{
+  {
+    GridScene scene(2, 0.1, {{"distance", plane(0, 1, 0, -5.0)}}, {{4.0, 4.0, 0.0}}, jkr);
+    EXPECT_NE(log_of(scene.sim, "run 0\n").find("WARNING: Fix wall/levelset file"),
+              std::string::npos);
+  }
+  // a slot of 0.15, with its bottom, in which the sphere is not
+  const auto left = [](const double *x) {
+    return x[0] - 3.9;
+  };
+  const auto right = [](const double *x) {
+    return 4.05 - x[0];
+  };
+  for (const Shape &bottom : {plane(0, 1, 0, 1.0), plane(0, 1, 0, 7.9)}) {
+    GridScene scene(
+        2, 0.1, {{"distance_bottom", bottom}, {"distance_left", left}, {"distance_right", right}},
+        {{4.0, 4.0, 0.0}}, jkr);
+    EXPECT_EQ(scene.sim.error_of("run 0").find("has no node within"), std::string::npos);
+  }
+}
+
+// Behind the wall in the beginning or, sent there, in the course of a run.
+TEST(WallGridFile, errors_of_places_name_the_file)
+{
+  for (const bool later : {false, true}) {
+    GridScene scene(2, 0.1, {{"distance", plane(0, 1, 0, 2.0)}}, {{4.0, later ? 4.0 : 1.0, 0.0}},
+                    jkr);
+    const auto text =
+        scene.sim.error_of(later ? "fix nve all nve/sphere\nvelocity all set 0 -1e5 0\n"
+                                   "timestep 3e-5\nneigh_modify delay 0 every 1 check no\nrun 5"
+                                 : "run 0");
+    EXPECT_NE(text.find("behind the wall"), std::string::npos) << text;
+    EXPECT_NE(text.find(" of file " + scene.file.path), std::string::npos) << text;
+  }
+}
+
+TEST(WallGridFile, numbers_that_are_no_distances_are_refused)
+{
+  const auto error_of = [](const Shape &shape) {
+    try {
+      const GridScene scene(2, 0.4, {{"distance", shape}}, {{4.0, 4.0, 0.0}}, jkr);
+    } catch (const std::runtime_error &error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const double size : {1.7e308, 1e307, 1e160}) {
+    const auto text = error_of([size](const double *x) {
+      return x[1] > 1.0 ? size : -size;
+    });
+    for (const char *word : {"Fix wall/levelset file /", "array distance is -1", "at node (0 0 0)",
+                             "must be within +-1e+100"})
+      EXPECT_NE(text.find(word), std::string::npos) << text;
+  }
+  for (const double same : {0.0, -5.0})
+    EXPECT_NE(error_of([same](const double *) {
+                return same;
+              }).find("array distance is > 0 nowhere: it must be so in the fluid"),
+              std::string::npos);
+}
+
 // Behind another side, where no particle comes, a side need not be a distance.
 TEST(WallGridFile, what_lies_behind_other_sides_does_not_count)
 {
