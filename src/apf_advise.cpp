@@ -36,7 +36,7 @@ void APFAdvise::command(int narg, char **arg)
   for (const auto &fix : modify->get_fix_list())
     if (auto *found = dynamic_cast<FixFlowField *>(fix)) field = found;
   if (field) {
-    field->require(apf::Detail::VORTICITY);
+    field->require(apf::Detail::VORTICITY, false);
     field->setup_pre_force(0);
   }
   find_sizes();
@@ -136,6 +136,12 @@ void APFAdvise::find_motion(FixFlowField *field)
     scene.U = std::max(fastest, wall_speed);
     if (field) scene.U = std::max(scene.U, fluid_at_particles(field).speed);
   }
+  double heaviest = 0.0, lightest = sizes[0].mass;
+  for (const auto &size : sizes) {
+    heaviest = std::max(heaviest, size.mass);
+    lightest = std::min(lightest, size.mass);
+  }
+  scene.amplify = apf::amplification(heaviest, lightest);
   // what is at rest may come to move so, and by a wall that moves twice as fast as it
   scene.spread = std::max({range.spread(images), scene.U, 2.0 * wall_speed});
   if (scene.U == 0.0)
@@ -259,6 +265,19 @@ void APFAdvise::advise_steps()
   if (sub_steps && scene.step > room * particle)
     cures.push_back(fmt::format("timestep {:.3g} or less: a particle moves {:.3g} diameters in one",
                                 particle, scene.step / particle * apf::report_f2));
+  constexpr double much = 10.0;    // shorter than needed, as a timestep that was forgotten
+  if (sub_steps && much * scene.step < particle)
+    cures.push_back(
+        fmt::format("timestep up to {:.3g}: a particle moves {:.3g} diameters in one, and {} are "
+                    "short enough",
+                    particle, scene.step / particle * apf::report_f2, apf::report_f2));
+  for (const auto &fix : modify->get_fix_by_style("^nve/sphere/mts")) {
+    const auto *mts = dynamic_cast<FixNVESphereMTS *>(fix);
+    const int n = mts && mts->fixed_number() ? mts->number() : 0;
+    if (n && n * finest * apf::largest_stable_kappa < scene.step * apf::accurate_kappa)
+      cures.push_back(fmt::format("collision {:.0f} or more: {} gives omega dt = {:.3g}", needed, n,
+                                  scene.step / (n * finest) * apf::accurate_kappa));
+  }
   if (sub_steps && scene.least_skin() > neighbor->skin)
     cures.push_back(fmt::format("neighbor {:.4g} bin or larger: impacts are looked for two "
                                 "timesteps ahead",

@@ -71,7 +71,7 @@ void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode
   const std::string what = sub_steps ? fmt::format("collision step {:.4g}, timestep / {},", dt, n)
                                      : fmt::format("timestep {:.4g}", dt);
   const std::string cure = sub_steps
-      ? fmt::format("collision {} gives {}, collision auto chooses",
+      ? fmt::format("collision {} gives {} at rest, impacts need more; collision auto chooses",
                     std::ceil(lmp->update->dt / good), apf::accurate_kappa)
       : fmt::format("{:.3g} gives {}; or use fix nve/sphere/mts", good, apf::accurate_kappa);
   lmp->error->warning(FLERR,

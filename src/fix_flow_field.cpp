@@ -95,8 +95,8 @@ void FixFlowField::setup(int /*vflag*/)
     warned = true;
     if (comm->me == 0)
       error->warning(FLERR,
-                     "Fix flow/field {}: no other fix takes this flow, and it does not act on "
-                     "particles by itself; fix flow/force {} makes it do so",
+                     "Fix flow/field {}: no fix makes this flow act on particles, and it does not "
+                     "by itself; fix flow/force {} makes it do so",
                      id, id);
   }
   taken = false;
@@ -173,9 +173,9 @@ double FixFlowField::time() const
 
 /* ---------------------------------------------------------------------- */
 
-void FixFlowField::require(apf::Detail detail)
+void FixFlowField::require(apf::Detail detail, bool acts)
 {
-  taken = true;
+  taken |= acts;
   if (!grid) return;
   grid->require(detail);
   grid->set_time(time());

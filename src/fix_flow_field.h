@@ -38,8 +38,9 @@ class FixFlowField : public Fix {
   double density;      // of the fluid                                 [mass/length^3]
   double viscosity;    // dynamic                                      [pressure time]
 
-  // What will be sampled; all ranks call it, in init() of who samples.
-  void require(apf::Detail);
+  // What will be sampled; all ranks call it, in init() of who samples. acts: on particles, which
+  // some fix must do, or a warning follows.
+  void require(apf::Detail, bool acts = true);
 
   // Fluid at a block of points, as it is at the current step.
   void sample(const apf::PointBlock &points, apf::Detail detail, apf::FluidBlock &out) const

@@ -63,7 +63,7 @@ void FixInletFlow::init()
   if (!field)
     error->all(FLERR, Error::NOLASTLINE, "{} field fix {} must be of style flow/field, got {}",
                command, field_id, fix->style);
-  field->require(apf::Detail::VORTICITY);
+  field->require(apf::Detail::VORTICITY, false);
   check_plane();
 
   walls.find(modify);

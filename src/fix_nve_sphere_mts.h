@@ -82,6 +82,7 @@ class FixNVESphereMTS : public Fix {
   // no more than what a contact may get; one that nobody foresaw has not been asked
   double largest_step(const apf::StiffestMode &) const;
   bool fixed_number() const { return fixed_steps > 0; }
+  int number() const { return fixed_steps; }
 
  private:
   static constexpr const char *command = "Fix nve/sphere/mts";
@@ -105,7 +106,8 @@ class FixNVESphereMTS : public Fix {
   double tilts_before[3] = {};
 
   struct Totals {    // of a run, for the summary
-    bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0;
+    bigint particle_steps = 0, collision_steps = 0, atoms = 0, active = 0, late_before = 0,
+           changes_before = 0;
     int fewest = 0, most = 0;
     double kappa = 0.0;         // largest omega times collision step
     double finest = 0.0;        // largest 1/step that was asked for, or would be
@@ -135,6 +137,7 @@ class FixNVESphereMTS : public Fix {
   apf::ByTile form_tiles(std::vector<int> &moving, const std::vector<int> &held);
   void drift_free();
   bigint late_contacts() const;
+  bigint changes_of_contacts() const;
   std::string finest_step() const;
 };
 

@@ -25,6 +25,7 @@ void FixNVESphereMTS::post_run()
   MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   const bigint late = late_contacts() - run.late_before;
   const double contacts = compute_vector(2);
+  const bool touched = changes_of_contacts() > run.changes_before;
   if (comm->me == 0)
     utils::logmesg(lmp,
                    "{} {}: {} particle steps of {:.4g}, {} collision steps, {} to {} in a particle "
@@ -37,8 +38,17 @@ void FixNVESphereMTS::post_run()
     error->warning(
         FLERR,
         "{} {}: {} contacts were found late, some with far too much energy: use a smaller "
-        "timestep, or see which command moves particles between two steps",
+        "timestep or a larger neighbor skin, or see which command moves particles between two "
+        "steps",
         command, id, late);
+  constexpr double unstable_kappa = 2.0;    // of velocity Verlet
+  if (fixed_steps && touched && run.kappa > unstable_kappa && comm->me == 0)
+    error->warning(
+        FLERR,
+        "{} {}: {} collision steps are too few for impacts as fast as were in view, omega "
+        "dt = {:.3g}: above {} a contact gains energy; use collision {:.0f} or more",
+        command, id, fixed_steps, run.kappa, unstable_kappa,
+        std::ceil(fixed_steps * run.kappa / apf::accurate_kappa));
   begin_totals();    // also for a run without setup
 }
 
@@ -46,6 +56,16 @@ void FixNVESphereMTS::begin_totals()
 {
   run_totals = Totals();
   run_totals.late_before = late_contacts();
+  run_totals.changes_before = changes_of_contacts();
+}
+
+// contacts made and ended so far, on any rank
+bigint FixNVESphereMTS::changes_of_contacts() const
+{
+  bigint mine = 0, all;
+  for (const auto *keeper : keepers) mine += keeper->changes_so_far();
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
 }
 
 // what asked for it, or what the script's number of steps is worth and which one would be accurate

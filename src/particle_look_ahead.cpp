@@ -140,19 +140,8 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
   velocities.frame(ahead.frame);
   ahead.walls = velocities.fastest_wall(ahead.frame);
   ahead.limit = velocities.fastest(ahead.frame) + apf::LookAhead::spin_share * std::sqrt(most[2]);
-  ahead.amplify = amplification(most[3], -most[4]);
+  ahead.amplify = apf::amplification(most[3], -most[4]);
   return {velocities.spread(), std::sqrt(most[0]), std::sqrt(most[1])};
-}
-
-// The larger of what one impact and a row of impacts can do: of bodies that meet head-on, and of
-// masses that fall by a small factor from each to the next. What is not counted on: rows of more
-// than three within a step, the most of which is a factor of eight.
-double ParticleLookAhead::amplification(double heaviest, double lightest) const
-{
-  constexpr double most = 8.0;
-  if (heaviest <= 0.0) return 1.0;
-  const double head_on = (3.0 * heaviest - lightest) / (heaviest + lightest);
-  return std::min(most, std::max(head_on, std::sqrt(heaviest / lightest)));
 }
 
 // whether collisions move a body

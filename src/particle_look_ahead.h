@@ -76,7 +76,6 @@ class ParticleLookAhead : protected Pointers {
   };
 
   Extremes find_extremes(double slow_largest);
-  double amplification(double heaviest, double lightest) const;
   bool moves(int i) const;
   void come_near(int i);
   bool set_reach(const Extremes &);

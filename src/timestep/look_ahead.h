@@ -94,6 +94,18 @@ struct Approach {
   }
 };
 
+// Speed after impacts over that of who struck: the larger of what one impact and a row of impacts
+// can do, of bodies that meet head-on, and of masses that fall by a small factor from each to the
+// next. What is not counted on: rows of more than three within a step, the most of which is a
+// factor of eight.
+inline double amplification(double heaviest, double lightest)
+{
+  constexpr double most = 8.0;
+  if (heaviest <= 0.0) return 1.0;
+  const double head_on = (3.0 * heaviest - lightest) / (heaviest + lightest);
+  return std::min(most, std::max(head_on, std::sqrt(heaviest / lightest)));
+}
+
 struct LookAhead {
   double step = 0.0;        // particle step                                               [time]
   double reach = 0.0;       // safety factor x particle step                               [time]

@@ -41,8 +41,9 @@ struct SceneScales {
   {
     return particle_reynolds(U, L, density, viscosity);
   }
+  double amplify = 1.0;    // of speeds by impacts, see amplification()                    [-]
   // Skin with which fix nve/sphere/mts looks two steps ahead, with room for 20 %.
-  double least_skin() const { return 1.2 * 2.0 * spread * step; }
+  double least_skin() const { return 1.2 * std::max(2.0, 1.0 + amplify) * spread * step; }
 };
 
 // tau_p                                                                           [time]

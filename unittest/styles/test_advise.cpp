@@ -147,6 +147,35 @@ TEST(Advise, says_what_to_change)
   EXPECT_NE(text.find("change: neighbor"), std::string::npos) << text;
 }
 
+TEST(Advise, steps_that_are_too_few_or_too_short_are_told)
+{
+  Simulation sim;
+  sim.run(channel(50.0) + "unfix move\nfix move all nve/sphere/mts collision 3\n");
+  const auto few = advice(sim, "speed 0.5");
+  EXPECT_NEAR(after(few, "change: collision").at(0),
+              std::ceil(after(few, "timestep / collision step").at(0)), 1.0)
+      << few;
+  sim.run("unfix move\nfix move all nve/sphere/mts collision auto\n");
+  const auto right = advice(sim, "speed 0.5");
+  for (const char *step : {"change: collision", "change: timestep"})
+    EXPECT_EQ(right.find(step), std::string::npos) << right;
+  sim.run("timestep 1e-8\n");    // for 2e-6
+  EXPECT_NE(advice(sim, "speed 0.5").find("change: timestep up to 2e-06: "), std::string::npos);
+}
+
+// A row of masses from 8 to 1, each a little lighter, hands on sqrt(8) of the speed at most, more
+// than one impact, (3 M - m)/(M + m).
+TEST(Advise, skin_counts_what_light_particles_gain)
+{
+  Scene scene;
+  scene.style = "pair_style granular/adhesive\npair_coeff * * jkr 2e6 0.25 0\n";
+  Simulation sim;
+  build(sim, {{1.0, 4.0, 4.0, 1.0}, {5.0, 4.0, 4.0, 2.0}}, scene);
+  sim.run("fix nve all nve/sphere/mts collision auto\ntimestep 0.01\n");
+  EXPECT_NEAR(after(advice(sim, "speed 0.5"), "neighbor skin").at(1),
+              1.2 * (1.0 + std::sqrt(8.0)) * 0.5 * 0.01, 1e-5);
+}
+
 // Two timesteps of what arrives fastest, and a fifth more: a wall, or images of a sheared box.
 TEST(Advise, skin_counts_walls_and_images_that_move)
 {

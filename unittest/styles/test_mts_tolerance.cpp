@@ -204,6 +204,29 @@ TEST(MtsTolerance, error_of_restitution_falls_with_the_step)
   EXPECT_LT(coarse.mean / fine.mean, 50.0);
 }
 
+// At rest a contact of this pair is stable with 6 steps, and in such an impact it is not; nor is it
+// told where the pair flies past.
+TEST(MtsTolerance, too_few_steps_for_an_impact_are_told_at_the_end)
+{
+  const double v = 6.0 * sticking_speed, step = 10.0 / frequency;
+  const struct {
+    int steps;
+    double aside;
+  } table[] = {{6, 0.0}, {13, 0.0}, {6, 1.01}};
+  for (const auto &[steps, aside] : table) {
+    Simulation sim;
+    place(sim, 1.0 + 0.5 * v * step, v, std::to_string(steps), step);
+    sim.run("set atom 2 y " + digits(4.0 + aside));
+    const double kappa = 10.0 * stiffer(v) / steps;
+    const auto text = log_of(sim, "run 2\n");
+    const auto at = text.find("a contact gains energy; use collision ");
+    EXPECT_EQ(at != std::string::npos, kappa > 2.0 && aside == 0.0) << text;
+    if (at != std::string::npos) {
+      EXPECT_NEAR(std::stod(text.substr(at + 38)), steps * kappa / 0.3, 1.5) << text;
+    }
+  }
+}
+
 TEST(MtsTolerance, wrong_words_are_named)
 {
   Simulation sim;
