@@ -2,6 +2,7 @@
 
 #include "argument_reader.h"
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_inlet_flow.h"
@@ -268,6 +269,11 @@ void FixInletFlow::check_plane() const
   }
   for (const auto &outlet : outlets) {
     const int axis = outlet.dim;
+    if (axis == dim && domain->periodicity[axis] && comm->me == 0)
+      error->warning(FLERR,
+                     "{} {}: the box is periodic in {}, so that what comes to the outlet at {} {} "
+                     "touches what has entered; use boundary f there",
+                     command, id, axes[axis], axes[axis], outlet.position);
     if (!shrinks(axis) && (outlet.position < lo[axis] || outlet.position > hi[axis]))
       error->all(FLERR, Error::NOLASTLINE,
                  "{} outlet {} = {} must lie within the box, which is {} to {}", command,

@@ -153,6 +153,12 @@ void FixNVESphereMTS::init()
                      "{} {}: fix {} {} does not hold particles against their contacts; use fix "
                      "freeze, or leave them out of the group of fix {}",
                      command, id, fix->id, fix->style, id);
+  for (const auto &fix : modify->get_fix_by_style("^wall/gran"))
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "{} {}: contacts with fix {} {} take no collision steps and may need a much "
+                     "smaller timestep; fix wall/levelset has contacts that do",
+                     command, id, fix->id, fix->style);
 
   if (!fixed_steps && n_collision == 1)
     n_collision = std::max(1,

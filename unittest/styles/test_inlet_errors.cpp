@@ -11,6 +11,20 @@ TEST(InletErrors, an_outlet_may_be_the_end_of_the_box)
             "");
 }
 
+TEST(InletErrors, outlets_beside_the_inlet_across_a_periodic_border_give_a_warning)
+{
+  for (const bool periodic : {false, true}) {
+    std::string scene = box() + uniform;
+    if (periodic) scene.replace(scene.find("boundary f"), 10, "boundary p");
+    Simulation sim;
+    sim.run(scene);
+    const auto text = log_of(sim,
+                             "fix in all inlet/flow x 0 air concentration 0.01 outlet x 19" +
+                                 particle + "\nfix drag all flow/force air drag stokes\nrun 0\n");
+    EXPECT_EQ(text.find("the box is periodic in x") != std::string::npos, periodic) << text;
+  }
+}
+
 TEST(InletErrors, name_what_is_wrong)
 {
   struct Row {

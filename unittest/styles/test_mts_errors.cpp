@@ -105,6 +105,20 @@ TEST(MtsErrors, forces_that_are_set_give_a_warning)
   }
 }
 
+TEST(MtsErrors, walls_that_are_not_sub_stepped_give_a_warning)
+{
+  Scene scene;
+  scene.boundary = "p f p";
+  Simulation sim;
+  build(sim, {{3.0, 4.0, 4.0}, {5.0, 4.0, 4.0}}, scene);
+  const auto text =
+      log_of(sim,
+             start +
+                 "fix floor all wall/gran hooke/history 1000 NULL 50 NULL 0.5 0 yplane 0 "
+                 "NULL\nrun 0\n");
+  expect_words(text, {"fix floor wall/gran", "take no collision steps"});
+}
+
 // Of a pair that stays together, 5 particle steps of 8 collision steps; of a bridge alone, which
 // asks for 14; without contacts no mode sets the step, and steps are in no period.
 TEST(MtsErrors, summary_at_the_end_of_a_run)
