@@ -290,7 +290,9 @@ void APFAdvise::advise_steps()
 
 void APFAdvise::advise_fluid(FixFlowField *field)
 {
-  const auto at = fluid_at_particles(field);
+  auto at = fluid_at_particles(field);
+  // what will enter and be captured sees all of it
+  if (speed_given) at.slip = std::max(at.slip, scene.U);
   double largest = 0.0;
   for (const auto &size : sizes) {
     const double d = 2.0 * size.radius;

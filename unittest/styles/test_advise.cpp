@@ -163,6 +163,19 @@ TEST(Advise, steps_that_are_too_few_or_too_short_are_told)
   EXPECT_NE(advice(sim, "speed 0.5").find("change: timestep up to 2e-06: "), std::string::npos);
 }
 
+// A nozzle that is still empty: what will be captured in it sees the fluid's speed.
+TEST(Advise, reynolds_number_of_what_will_enter)
+{
+  Simulation sim;
+  sim.run(channel(50.0) +
+          "delete_atoms group all\nfix in all inlet/flow x 1e-4 air number 1 every "
+          "100 diameter 1e-5 density 2600 type 1 seed 7\n");
+  const auto text = advice(sim, "speed 20");
+  EXPECT_NEAR(after(text, " Re_p").at(0), 20.0 * d * 1.2 / 2e-5, 1e-3) << text;
+  EXPECT_NE(text.find("change: "), std::string::npos) << text;
+  EXPECT_NE(text.find("drag stokes"), std::string::npos) << text;
+}
+
 // A row of masses from 8 to 1, each a little lighter, hands on sqrt(8) of the speed at most, more
 // than one impact, (3 M - m)/(M + m).
 TEST(Advise, skin_counts_what_light_particles_gain)
