@@ -273,8 +273,8 @@ void APFAdvise::advise_steps()
                     particle, scene.step / particle * apf::report_f2, apf::report_f2));
   for (const auto &fix : modify->get_fix_by_style("^nve/sphere/mts")) {
     const auto *mts = dynamic_cast<FixNVESphereMTS *>(fix);
-    const int n = mts && mts->fixed_number() ? mts->number() : 0;
-    if (n && n * finest * apf::largest_stable_kappa < scene.step * apf::accurate_kappa)
+    const int n = mts ? mts->fixed_number() : 0;
+    if (n > 0 && n * finest * apf::largest_stable_kappa < scene.step * apf::accurate_kappa)
       cures.push_back(fmt::format("collision {:.0f} or more: {} gives omega dt = {:.3g}", needed, n,
                                   scene.step / (n * finest) * apf::accurate_kappa));
   }

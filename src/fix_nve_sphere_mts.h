@@ -81,8 +81,7 @@ class FixNVESphereMTS : public Fix {
   bool steps(int i) const { return activity[i] != apf::FREE; }    // in the last particle step
   // no more than what a contact may get; one that nobody foresaw has not been asked
   double largest_step(const apf::StiffestMode &) const;
-  bool fixed_number() const { return fixed_steps > 0; }
-  int number() const { return fixed_steps; }
+  int fixed_number() const { return fixed_steps; }    // of collision steps; 0: chosen in each step
 
  private:
   static constexpr const char *command = "Fix nve/sphere/mts";
@@ -137,7 +136,8 @@ class FixNVESphereMTS : public Fix {
   apf::ByTile form_tiles(std::vector<int> &moving, const std::vector<int> &held);
   void drift_free();
   bigint late_contacts() const;
-  bigint changes_of_contacts() const;
+  bigint total(bigint (FixContacts::*count)() const) const;
+  double accurate_steps() const;
   std::string finest_step() const;
 };
 

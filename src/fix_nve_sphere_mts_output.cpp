@@ -25,7 +25,7 @@ void FixNVESphereMTS::post_run()
   MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   const bigint late = late_contacts() - run.late_before;
   const double contacts = compute_vector(2);
-  const bool touched = changes_of_contacts() > run.changes_before;
+  const bool touched = total(&FixContacts::changes_so_far) > run.changes_before;
   if (comm->me == 0)
     utils::logmesg(lmp,
                    "{} {}: {} particle steps of {:.4g}, {} collision steps, {} to {} in a particle "
@@ -47,8 +47,7 @@ void FixNVESphereMTS::post_run()
         FLERR,
         "{} {}: {} collision steps are too few for impacts as fast as were in view, omega "
         "dt = {:.3g}: above {} a contact gains energy; use collision {:.0f} or more",
-        command, id, fixed_steps, run.kappa, unstable_kappa,
-        std::ceil(fixed_steps * run.kappa / apf::accurate_kappa));
+        command, id, fixed_steps, run.kappa, unstable_kappa, accurate_steps());
   begin_totals();    // also for a run without setup
 }
 
@@ -56,16 +55,27 @@ void FixNVESphereMTS::begin_totals()
 {
   run_totals = Totals();
   run_totals.late_before = late_contacts();
-  run_totals.changes_before = changes_of_contacts();
+  run_totals.changes_before = total(&FixContacts::changes_so_far);
 }
 
-// contacts made and ended so far, on any rank
-bigint FixNVESphereMTS::changes_of_contacts() const
+// sum over all contacts and ranks of what their keepers count
+bigint FixNVESphereMTS::total(bigint (FixContacts::*count)() const) const
 {
   bigint mine = 0, all;
-  for (const auto *keeper : keepers) mine += keeper->changes_so_far();
+  for (const auto *keeper : keepers) mine += (keeper->*count)();
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   return all;
+}
+
+bigint FixNVESphereMTS::late_contacts() const
+{
+  return total(&FixContacts::late_so_far) + late_before_restart;
+}
+
+// collision steps with which the stiffest contact that the run had would be accurate
+double FixNVESphereMTS::accurate_steps() const
+{
+  return std::ceil(fixed_steps * run_totals.kappa / apf::accurate_kappa);
 }
 
 // what asked for it, or what the script's number of steps is worth and which one would be accurate
@@ -81,18 +91,8 @@ std::string FixNVESphereMTS::finest_step() const
                   "most {:.3g}",
                   run.mode, MathConst::MY_2PI / run.kappa, run.kappa);
   if (run.kappa > apf::accurate_kappa)
-    text +=
-        fmt::format(" (collision {:.0f} gives {})",
-                    std::ceil(fixed_steps * run.kappa / apf::accurate_kappa), apf::accurate_kappa);
+    text += fmt::format(" (collision {:.0f} gives {})", accurate_steps(), apf::accurate_kappa);
   return text;
-}
-
-bigint FixNVESphereMTS::late_contacts() const
-{
-  bigint mine = 0, all;
-  for (const auto *keeper : keepers) mine += keeper->late_so_far();
-  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  return all + late_before_restart;
 }
 
 /* ----------------------------------------------------------------------

@@ -11,11 +11,17 @@ const double mass = pi / 6.0, m = 0.5 * mass;    // d = 1, density 1; effective 
 const double slow2 = 2.0 * curve.F_C() * curve.delta_C() / m;
 const double sticking_speed = std::sqrt(0.935503 * slow2);
 
-// Two spheres; normal force only, so that the stiffest mode is sqrt(6/5 E a0 / m) at rest.
+// The normal force and what is added: the stiffest mode is sqrt(6/5 E a0 / m) at rest.
+std::string normal_only(const std::string &more = "")
+{
+  return "pair_style granular/adhesive\npair_coeff * *" + jkr + more + "\nneighbor 2.5 bin\n";
+}
+
+// two spheres
 void place(Simulation &sim, double distance, double speed, const std::string &how, double step)
 {
   Scene scene;
-  scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "\nneighbor 2.5 bin\n";
+  scene.style = normal_only();
   build(sim, {{3.0, 4.0, 4.0}, {3.0 + distance, 4.0, 4.0}}, scene);
   char line[200];
   snprintf(line, sizeof(line), "timestep %.17g\nset atom 1 vx %.17g\nset atom 2 vx %.17g\n", step,
@@ -144,7 +150,7 @@ TEST(MtsTolerance, what_is_struck_is_held_to_the_tolerance)
       const double exact = leaves(leaves(v, sticking_speed, 0.5), V_s, mass / (mass + m3));
       for (int n = 0; n < 8; n++) {
         Scene scene;
-        scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr + "\nneighbor 2.5 bin\n";
+        scene.style = normal_only();
         const double first = 3.0, second = first + 1.005 + 0.1 * n / 8.0;
         Simulation sim;
         build(sim, {{first, 4.0, 4.0}, {second, 4.0, 4.0}, {second + 0.7 + 0.5 * d, 4.0, 4.0, d}},
@@ -165,8 +171,7 @@ TEST(MtsTolerance, what_a_bridge_pulls_together_takes_fine_steps)
   auto rebound = [&](const std::string &how) {
     Simulation sim;
     Scene scene;
-    scene.style = "pair_style granular/adhesive\npair_coeff * *" + jkr +
-        " bridge 0.3 100 0 0 form film\nneighbor 2.5 bin\n";
+    scene.style = normal_only(" bridge 0.3 100 0 0 form film");
     build(sim, {{3.0, 4.0, 4.0}, {4.0805, 4.0, 4.0}}, scene);
     char line[200];
     snprintf(line, sizeof(line), "timestep %.17g\nset atom 1 vx %.17g\nset atom 2 vx %.17g\n",
