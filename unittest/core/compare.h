@@ -10,10 +10,16 @@
 
 namespace apf_test {
 
+// The larger one; infinite if either is no number, which std::max would pass over.
+inline double larger(double a, double b)
+{
+  return std::isnan(a) || std::isnan(b) ? HUGE_VAL : std::max(a, b);
+}
+
 inline double largest(const std::vector<double> &values)
 {
   double m = 0.0;
-  for (const double value : values) m = std::max(m, std::fabs(value));
+  for (const double value : values) m = larger(m, std::fabs(value));
   return m;
 }
 

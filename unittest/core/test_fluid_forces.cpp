@@ -1,6 +1,7 @@
 // Forces of the fluid on a block of spheres. Facts: values of libm and of the authors of Philox,
 // formulae of the sources written out, measured slip, all builds against each other.
 
+#include "compare.h"
 #include "flow/accelerated_fluid.h"
 #include "flow/brownian.h"
 #include "flow/cunningham.h"
@@ -226,7 +227,7 @@ TEST(FluidForces, all_that_is_given_is_the_sum_of_the_forces)
       const Vec3 force = s.force(static_cast<FluidForce>(k), l);
       EXPECT_GT(norm2(force), 0.0) << k;
       sum = sum + force;
-      largest = std::max(largest, std::sqrt(norm2(force)));
+      largest = apf_test::larger(largest, std::sqrt(norm2(force)));
     }
     for (int c = 0; c < 3; c++)
       EXPECT_NEAR(s.block.given[c][l], c == 0 ? sum.x : c == 1 ? sum.y : sum.z, 1e-12 * largest);

@@ -81,8 +81,8 @@ Ramped ramp(TwoBodies &two, const Mode &mode, double end)
     load = start + (end - start) * std::min(1.0, (k + 1.0) / n);
     two.step(dt);
     r.moved += speed * dt;
-    r.largest = std::max(r.largest, std::fabs(response));
-    if (k > 0) r.jump = std::max(r.jump, std::fabs(response - before));
+    r.largest = apf_test::larger(r.largest, std::fabs(response));
+    if (k > 0) r.jump = apf_test::larger(r.jump, std::fabs(response - before));
   }
   r.response = response;
   return r;

@@ -1,5 +1,6 @@
 // Distances from a grid against the shapes they were taken from.
 
+#include "compare.h"
 #include "wall/grid_survey.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ double error_around(int dims, int nodes)
     for (int c = 0; c < dims; c++) x[c] = gauss(random);
     const double scale = 1.5 / size(x, dims);
     for (double &component : x) component *= scale;
-    worst = std::max(worst, std::fabs(field.grid.distance(x) - 0.5));
+    worst = apf_test::larger(worst, std::fabs(field.grid.distance(x) - 0.5));
   }
   return worst;
 }

@@ -2,6 +2,7 @@
 // second order, periodic ones repeat, solenoidal ones stay so; no-slip at walls that cross the
 // grid.
 
+#include "compare.h"
 #include "gridded.h"
 
 #include "gtest/gtest.h"
@@ -72,12 +73,13 @@ Errors errors_of(const Gridded &field, const Swirl &u, const std::vector<Vec3> &
     double divergence = 0.0;
     for (int a = 0; a < 3; a++) {
       divergence += out.gradient[a][a][l];
-      worst.velocity = std::max(worst.velocity, std::fabs(out.velocity[a][l] - component(u(x), a)));
+      worst.velocity =
+          apf_test::larger(worst.velocity, std::fabs(out.velocity[a][l] - component(u(x), a)));
       for (int b = 0; b < 3; b++)
         worst.gradient =
-            std::max(worst.gradient, std::fabs(out.gradient[a][b][l] - u.slope(x, a, b)));
+            apf_test::larger(worst.gradient, std::fabs(out.gradient[a][b][l] - u.slope(x, a, b)));
     }
-    worst.divergence = std::max(worst.divergence, std::fabs(divergence));
+    worst.divergence = apf_test::larger(worst.divergence, std::fabs(divergence));
   }
   return worst;
 }

@@ -120,9 +120,9 @@ void expect_carried(const RigidChain &chain, const RigidChain &before, const Vec
   }
   double largest_force = 0.0, largest_torque = 0.0;
   for (const double component : before.f)
-    largest_force = std::max(largest_force, std::fabs(component));
+    largest_force = apf_test::larger(largest_force, std::fabs(component));
   for (const double component : before.torque)
-    largest_torque = std::max(largest_torque, std::fabs(component));
+    largest_torque = apf_test::larger(largest_torque, std::fabs(component));
   for (int b = 0; b < static_cast<int>(chain.start.size()); b++) {
     expect_near(TwoBodies::vec(chain.f.data(), b),
                 rotated(TwoBodies::vec(before.f.data(), b), axis, angle), 2e-6 * largest_force,

@@ -5,6 +5,7 @@
 #ifndef APF_TEST_TWO_BODIES_H
 #define APF_TEST_TWO_BODIES_H
 
+#include "compare.h"
 #include "contact/contact_kernel.h"
 
 #include <algorithm>
@@ -231,8 +232,8 @@ inline Rebound collide(TwoBodies &two, double dt)
   two.contact_forces(0.0);
   for (bool returning = false; !two.ended(); r.duration += dt) {
     two.step(dt);
-    r.max_force = std::max(r.max_force, std::sqrt(norm2(TwoBodies::vec(two.f, 0))));
-    r.max_overlap = std::max(r.max_overlap, two.list.overlap(0));
+    r.max_force = apf_test::larger(r.max_force, std::sqrt(norm2(TwoBodies::vec(two.f, 0))));
+    r.max_overlap = apf_test::larger(r.max_overlap, two.list.overlap(0));
     const bool closes = two.closing_speed() > 0.0;
     if (returning && closes) return r;
     returning = !closes;

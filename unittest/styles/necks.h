@@ -29,7 +29,9 @@ inline std::vector<LocalRow> contacts_of(Simulation &sim)
   auto **row = static_cast<double **>(of("loc", LMP_TYPE_ARRAY));
   auto **ids = static_cast<double **>(of("ids", LMP_TYPE_ARRAY));
   const int rows = *static_cast<int *>(of("loc", LMP_SIZE_ROWS));
+  const int columns = *static_cast<int *>(of("loc", LMP_SIZE_COLS));
   std::vector<LocalRow> all;
+  for (int r = 0; r < rows; r++) expect_finite(row[r], columns, "compute pair/local");
   for (int r = 0; r < rows; r++)
     if (row[r][1] != 0.0)    // contact radius
       all.push_back(

@@ -136,6 +136,7 @@ inline std::vector<double> gather(Simulation &sim, const char *name, int columns
 {
   std::vector<double> all(columns * static_cast<size_t>(lammps_get_natoms(sim.lammps())));
   lammps_gather(sim.lammps(), name, 1, columns, all.data());
+  expect_finite(all.data(), all.size(), name);
   return all;
 }
 

@@ -36,6 +36,7 @@ Snapshot snapshot(Simulation &sim, const Row &row)
   all.resize(starts.back() + lengths.back());
   MPI_Allgatherv(mine.data(), length, MPI_DOUBLE, all.data(), lengths.data(), starts.data(),
                  MPI_DOUBLE, world);
+  expect_finite(all.data(), all.size(), "particles");
   Snapshot result;
   for (size_t n = 0; n < all.size(); n += 16)
     std::copy_n(all.data() + n + 1, 15, result.atoms[static_cast<int>(all[n])].data());

@@ -127,7 +127,8 @@ TEST(MtsChain, rain_on_a_plane_keeps_its_energy)
     const double before = energy(sim);
     sim.run("fix nve all nve/sphere/mts collision auto safety 0.2\ntimestep 0.1\nrun 60");
     EXPECT_LT(energy(sim) / before, 1.01) << n;
-    if (sim.value("f_nve[3]") == 0.0) EXPECT_GT(energy(sim) / before, 0.99) << n;
+    const bool apart = sim.value("f_nve[3]") == 0.0;
+    EXPECT_GT(energy(sim) / before, apart ? 0.99 : 0.0) << n;
     late += sim.value("f_nve[5]");
     impacts += sim.value("f_wall[8]");
   }
