@@ -6,6 +6,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "fix_contacts.h"
 #include "force.h"
 #include "memory.h"
 #include "update.h"
@@ -60,6 +61,11 @@ ComputeAggregateContact::~ComputeAggregateContact()
 void ComputeAggregateContact::init()
 {
   contacts_are_old = true;
+  require_contacts();
+}
+
+void ComputeAggregateContact::require_contacts()
+{
   if (!keeps_contacts(force->pair))
     error->all(FLERR, Error::NOLASTLINE,
                "Compute aggregate/contact needs a pair style that keeps contacts, such as "
@@ -96,7 +102,8 @@ void ComputeAggregateContact::find_aggregates()
         "Compute aggregate/contact {} is asked for before the first forces of a run, as by a "
         "variable of fix balance: keep its values for that by fix ave/atom",
         id);
-  if (update->whichflag == 0 && atoms_have_changed())
+  if (update->whichflag == 0) require_contacts();    // they may be gone since the last run
+  if (update->whichflag == 0 && (!FixContacts::lists_hold(lmp) || atoms_have_changed()))
     error->all(FLERR, Error::NOLASTLINE,
                "Compute aggregate/contact {} is asked for after atoms were moved or renumbered, as "
                "by write_restart, and before contacts were found again: use run 0 first",

@@ -74,6 +74,7 @@ class ComputeAggregateContact : public Compute {
   void gather_wall_contacts();
 
   void find_aggregates();
+  void require_contacts();    // an error without a pair style that keeps them
   void start_labels();
   void connect_contacts();
   void spread_labels();

@@ -95,6 +95,7 @@ void ComputeWallDeposit::compute_array()
 // all outputs, so that those that are asked for later cost nothing
 void ComputeWallDeposit::measure()
 {
+  if (update->whichflag == 0) find_wall(Error::NOLASTLINE);    // it may be gone since the last run
   invoked_peratom = invoked_vector = invoked_array = update->ntimestep;
   if (atom->nmax > nmax) {
     nmax = atom->nmax;

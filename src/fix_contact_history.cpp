@@ -5,7 +5,9 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "math_extra.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "pair_granular_adhesive.h"
 #include "respa.h"
 #include "update.h"
@@ -150,9 +152,35 @@ void FixContactHistory::settle_liquid()
     store.liquid[i] = there - settled[2 * i + 1] * taken;
   }
   tell_ghosts();
-  for (auto *keeper : keepers) keeper->settle_bridges();
+  for (auto *keeper : all_of(modify)) keeper->settle_bridges();    // also between runs
   accounts.clear();
   liquid_moved = false;
+}
+
+// Bridges whose particles a command has deleted, moved apart, or given types without bridges: what
+// is left gets its own share back. By distance, as the neighbour list does, since only one of the
+// two owners has the pair in its list.
+void FixContactHistory::end_lost_bridges()
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  std::unordered_multimap<tagint, int> images;
+  for (int i = 0; i < nall; i++) images.emplace(atom->tag[i], i);
+  const double reach = pair->longest_reach() + neighbor->skin;
+  auto together = [&](int i, int j) {
+    double d[3];
+    MathExtra::sub3(atom->x[i], atom->x[j], d);
+    return pair->coeff_of_types(atom->type[i], atom->type[j]).bridge.present() &&
+        MathExtra::len3(d) < atom->radius[i] + atom->radius[j] + reach;
+  };
+  for (int i = 0; i < nlocal; i++)
+    store.bridges.keep_if(i, [&](tagint partner, const apf::BridgeMemory &memory) {
+      const auto [first, last] = images.equal_range(partner);
+      const bool kept = std::any_of(first, last, [&](const auto &image) {
+        return together(i, image.second);
+      });
+      if (!kept) store.liquid[i] += memory.volume_i;
+      return kept;
+    });
 }
 
 void FixContactHistory::share_liquid()
@@ -293,6 +321,7 @@ void FixContactHistory::pre_neighbor()
 
 void FixContactHistory::post_neighbor()
 {
+  FixContacts::post_neighbor();
   for (int i = 0; i < atom->nlocal + atom->nghost; i++) atom->radius[i] -= radius_growth;
   pair->list_was_built();
   if (outermost >= 0) lists.list_was_built();
@@ -343,23 +372,25 @@ void FixContactHistory::store_contacts()
 }
 
 /* ----------------------------------------------------------------------
-   delete_atoms and reset_atoms may have numbered atoms anew since the last run
+   delete_atoms and reset_atoms may have numbered atoms anew since the last run; new ones may have
+   the IDs of those that were deleted
 ------------------------------------------------------------------------- */
 
 void FixContactHistory::setup_pre_exchange()
 {
   const tagint *tag = atom->tag;
   std::vector<tagint> mine;    // old ID, new ID
-  int changed = 0;
+  int seen[2] = {0, 0};        // atoms that were here, and those that are new or have another ID
   for (int i = 0; i < atom->nlocal; i++) {
     const tagint old = store.owner(i);
+    seen[old != tag[i]] = 1;
     if (old == 0) continue;
+    seen[0] = 1;
     mine.push_back(old);
     mine.push_back(tag[i]);
-    changed |= old != tag[i];
   }
-  MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, world);
-  if (!changed) return;
+  MPI_Allreduce(MPI_IN_PLACE, seen, 2, MPI_INT, MPI_MAX, world);
+  if (!seen[0] || !seen[1]) return;
 
   const int n = static_cast<int>(mine.size());
   std::vector<int> counts(comm->nprocs), starts(comm->nprocs, 0);

@@ -73,7 +73,8 @@ class FixContactHistory : public FixContacts {
   void give_liquid(int i, double volume) { account(i)[1] += volume; }
   double granted(int i) const { return settled[2 * i + 1]; }    // of what was taken     [-]
   void settle_liquid();                                         // collective
-  void share_liquid();    // tells ghosts, and new atoms; collective
+  void share_liquid();        // tells ghosts, and new atoms; collective
+  void end_lost_bridges();    // at the first forces of a run
 
   // Counts contacts, with particles and walls, where some were made or have ended on any rank since
   // the last count; returns whether so. Collective.

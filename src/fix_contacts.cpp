@@ -51,12 +51,26 @@ int FixContacts::setmask()
 
 void FixContacts::init()
 {
-  keepers.clear();
+  keepers = all_of(modify);
   sub_stepper = nullptr;
-  for (const auto &fix : modify->get_fix_list()) {
-    if (auto *keeper = dynamic_cast<FixContacts *>(fix)) keepers.push_back(keeper);
+  for (const auto &fix : modify->get_fix_list())
     if (auto *stepper = dynamic_cast<FixNVESphereMTS *>(fix)) sub_stepper = stepper;
-  }
+}
+
+std::vector<FixContacts *> FixContacts::all_of(Modify *modify)
+{
+  std::vector<FixContacts *> all;
+  for (const auto &fix : modify->get_fix_list())
+    if (auto *keeper = dynamic_cast<FixContacts *>(fix)) all.push_back(keeper);
+  return all;
+}
+
+bool FixContacts::lists_hold(LAMMPS *lmp)
+{
+  int hold = 1;
+  for (const auto *keeper : all_of(lmp->modify)) hold = hold && keeper->order.holds(lmp->atom);
+  MPI_Allreduce(MPI_IN_PLACE, &hold, 1, MPI_INT, MPI_MIN, lmp->world);
+  return hold;
 }
 
 /* ----------------------------------------------------------------------
@@ -66,6 +80,7 @@ void FixContacts::init()
 
 const apf::ContactTimes &FixContacts::take_velocities()
 {
+  require_lists();
   const double step = step_of_level();
   contacts_change();
   const double last_behind = taken.behind;
@@ -88,6 +103,19 @@ const apf::ContactTimes &FixContacts::take_velocities()
   }
   recall_due(taken);
   return taken;
+}
+
+// A run without setup takes the lists of the one before.
+void FixContacts::require_lists()
+{
+  if (!run_ended) return;
+  run_ended = false;
+  if (!lists_hold(lmp))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix {} {}: a command since the last run has moved or renumbered atoms or their "
+               "ghosts, as write_restart does, and contacts were not found again: use run without "
+               "pre no",
+               style, id);
 }
 
 void FixContacts::recall_due(const apf::ContactTimes &times)
@@ -156,6 +184,7 @@ void FixContacts::post_run()
 {
   pre_exchange();
   velocities.remember(atom, due_loads());
+  run_ended = true;
 }
 
 std::vector<double> FixContacts::due_loads()

@@ -3,6 +3,7 @@
 
 #include "fix.h"
 
+#include "atom_order.h"
 #include "contact/contact_law.h"
 #include "contact/islands.h"
 #include "contact/jump.h"
@@ -25,6 +26,7 @@ class FixContacts : public Fix {
   void init() override;
   void pre_exchange() override;
   void min_pre_exchange() override { pre_exchange(); }
+  void post_neighbor() override { order.note(atom); }
   void setup_post_neighbor() override { post_neighbor(); }
   void min_post_neighbor() override { post_neighbor(); }
   void post_run() override;
@@ -41,6 +43,12 @@ class FixContacts : public Fix {
   int size_restart(int) override;
   int maxsize_restart() override;
   double memory_usage() override;
+
+  static std::vector<FixContacts *> all_of(class Modify *);
+  // Whether atoms have the numbers by which contacts know them: between runs commands may give them
+  // others. Collective.
+  static bool lists_hold(class LAMMPS *);
+  void require_lists();    // an error where a run goes on without; collective
 
   bigint changes_so_far() const { return changes; }    // contacts made and ended
   void count_into(double *counts) { add_counts(counts); }
@@ -120,6 +128,8 @@ class FixContacts : public Fix {
   const class FixNVESphereMTS *sub_stepper = nullptr;    // integrates contacts, or none does
   bigint late = 0;
   bool registered = false;
+  AtomOrder order;
+  bool run_ended = false;       // and no forces were computed since
   bool stored = true;           // no forces since contacts were stored
   apf::ContactTimes taken{};    // of the last forces
 

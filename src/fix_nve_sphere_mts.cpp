@@ -91,6 +91,7 @@ double FixNVESphereMTS::step_of(int i) const
 
 void FixNVESphereMTS::initial_integrate(int /*vflag*/)
 {
+  history->require_lists();
   if (run_totals.particle_steps == 0) find_slow_largest();
   if (foresight.look(slow_largest)) next_reneighbor = update->ntimestep;
   choose_steps();

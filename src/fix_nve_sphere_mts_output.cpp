@@ -58,11 +58,11 @@ void FixNVESphereMTS::begin_totals()
   run_totals.changes_before = total(&FixContacts::changes_so_far);
 }
 
-// sum over all contacts and ranks of what their keepers count
+// sum over all contacts and ranks of what their keepers count; between runs some may be gone
 bigint FixNVESphereMTS::total(bigint (FixContacts::*count)() const) const
 {
   bigint mine = 0, all;
-  for (const auto *keeper : keepers) mine += (keeper->*count)();
+  for (const auto *keeper : FixContacts::all_of(modify)) mine += (keeper->*count)();
   MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   return all;
 }
@@ -111,7 +111,7 @@ double FixNVESphereMTS::compute_vector(int n)
   }
   if (n == 2) {
     double mine = 0.0, all;
-    for (auto *keeper : keepers) mine += keeper->contacts_here();
+    for (const auto *keeper : FixContacts::all_of(modify)) mine += keeper->contacts_here();
     MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
     return all;
   }

@@ -5,6 +5,7 @@
 #include "atom.h"
 #include "error.h"
 #include "fix_contact_history.h"
+#include "update.h"
 
 #include <limits>
 
@@ -228,8 +229,21 @@ Marks FixWallLevelset::zones_of(int i)
   return zones;
 }
 
+// Between runs commands may have renumbered atoms and deleted regions.
+void FixWallLevelset::check_lists()
+{
+  if (update->whichflag) return;
+  ledger.find_regions(fmt::format("{} {}", command, id));
+  if (!lists_hold(lmp))
+    error->all(FLERR, Error::NOLASTLINE,
+               "{} {} is asked for its contacts after atoms were moved or renumbered, as by "
+               "delete_atoms, and before contacts were found again: use run 0 first",
+               command, id);
+}
+
 std::vector<WallTouch> FixWallLevelset::touches()
 {
+  check_lists();
   if (rebuild) find_again();
   std::vector<WallTouch> all;
   for (int k = 0; k < contacts.size(); k++) {
@@ -262,6 +276,7 @@ void FixWallLevelset::store_contacts()
 
 void FixWallLevelset::post_neighbor()
 {
+  FixContacts::post_neighbor();
   rebuild = true;
 }
 

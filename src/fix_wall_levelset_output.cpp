@@ -23,6 +23,7 @@ double FixWallLevelset::compute_scalar()
     double energy = 0.0;
     void read(int, const apf::ContactParts &p) override { energy += p.energy(); }
   } sum;
+  check_lists();
   if (contacts.size() > 0) {
     gather();    // remove_ended() has renumbered the rows
     kernel(contacts, rows, lender ? lender->last_times() : last_times(), &sum);
@@ -40,6 +41,7 @@ double FixWallLevelset::compute_vector(int n)
 {
   if (n >= n_loads) return bridge_load(n - n_loads);
   if (!loads_summed) {
+    check_lists();
     before_storing();
     double mine[n_loads];
     const auto loads = ledger.total_load();
@@ -70,7 +72,10 @@ double FixWallLevelset::bridge_load(int n)
 // rows: zones of the wall, and the whole of it
 double FixWallLevelset::compute_array(int row, int column)
 {
-  if (!settled) ledger.settle(touches(), aggregates.get());
+  if (settled)
+    check_lists();
+  else
+    ledger.settle(touches(), aggregates.get());
   settled = true;
   return ledger.entry(row, column);
 }

@@ -41,7 +41,7 @@ void PairBridges::add_candidate(int i, int j)
   const int k = meetings.add(i, j, forming_distance(i, j));
   unsettled.push_back(0);
   const auto memory = store->find_bridge(i, atom->tag[j]);
-  if (!memory) return;
+  if (!memory || !pair->coeff_of(i, j).bridge.present()) return;
   list.add(i, j, k, number_of_kind(i, j), *memory, false);
   meetings.closed[k] = 1;
   store->count_anew();

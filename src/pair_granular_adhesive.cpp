@@ -235,6 +235,7 @@ void PairGranularAdhesive::build_candidates()
   const tagint *tag = atom->tag;
   candidates.clear();
   contacts.clear();
+  if (update->setupflag && store->keeps_liquid()) store->end_lost_bridges();
   if (wet) {
     bridges.fill_new_atoms();
     store->share_liquid();
@@ -271,6 +272,7 @@ void PairGranularAdhesive::build_candidates()
   }
   store->bodies().forget_touched();
   rebuild = false;
+  if (update->setupflag) check_places();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -117,6 +117,8 @@ class PairGranularAdhesive : public Pair {
   void detect(bool all, double step);
   void close(int candidate, const apf::ContactHistory &);
   int number_of_kind(int i, int j);    // in contacts.kinds
+  double overlap_at_rest(int i, int j) const;
+  void check_places();
   const apf::StiffestMode &mode_of(int i, int j)
   {
     return contacts.kinds[number_of_kind(i, j)].mode;

@@ -10,8 +10,10 @@
 #include "fix.h"
 #include "fix_contact_history.h"
 #include "force.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
+#include "named_atoms.h"
 #include "neighbor.h"
 #include "particle_checks.h"
 
@@ -213,6 +215,49 @@ void PairGranularAdhesive::setup()
                    i, j);
   if (store->step_is_given())
     check_timestep(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());
+}
+
+// Particles that overlap where a run begins, and have no contact yet: what comes of them looks like
+// something else.
+void PairGranularAdhesive::check_places()
+{
+  constexpr double much = 0.1;    // of the smaller radius
+  NamedAtoms together, pressed;
+  for (int k = 0; k < candidates.size(); k++) {
+    if (candidates.closed[k]) continue;
+    const int i = candidates.i[k], j = candidates.j[k];
+    double d[3];
+    MathExtra::sub3(atom->x[i], atom->x[j], d);
+    const double distance = MathExtra::len3(d), smaller = MIN(atom->radius[i], atom->radius[j]);
+    const double overlap = candidates.touch[k] - distance;
+    if (distance == 0.0)
+      together.add(atom->tag[i], overlap);
+    else if (overlap > much * smaller && overlap > 2.0 * overlap_at_rest(i, j))
+      pressed.add(atom->tag[i], overlap / smaller);
+  }
+  together.gather(world);
+  if (together.number() > 0)
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair granular/adhesive: pairs of particles at one place, between which no direction "
+        "is: {} (of IDs {}); delete_atoms overlap takes one of each out",
+        together.number(), together.ids());
+  pressed.gather(world);
+  if (pressed.number() > 0 && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Pair granular/adhesive: pairs that begin inside each other and will be shot "
+        "apart: {} (of IDs {}), up to {:.3g} of the smaller radius deep; place particles "
+        "apart, as create_atoms with overlap does, or take one of each out with "
+        "delete_atoms overlap",
+        pressed.number(), pressed.ids(), pressed.deepest());
+}
+
+double PairGranularAdhesive::overlap_at_rest(int i, int j) const
+{
+  const auto &coeff = coeff_of(i, j);
+  const double ri = atom->radius[i], rj = atom->radius[j];
+  return apf::overlap_at_rest({coeff.bridge, coeff.model}, ri * rj / (ri + rj));
 }
 
 apf::StiffestMode PairGranularAdhesive::stiffest_possible() const

@@ -9,6 +9,7 @@
 #include "force.h"
 #include "math_extra.h"
 #include "meeting_velocities.h"
+#include "named_atoms.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -105,6 +106,7 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
   double acceleration2 = slow_largest * slow_largest, displacement2 = 0.0, spin2 = 0.0;
   double heaviest = 0.0, lightest = std::numeric_limits<double>::max();
   bool held = false;
+  double nothing = 0.0;    // NAN where a number is not finite, which comparisons pass over
   const auto &bodies = history->bodies();
   const auto *xs = rows_of(atom->x), *vs = rows_of(atom->v), *fs = rows_of(atom->f);
   const auto *torques = rows_of(atom->torque), *omegas = rows_of(atom->omega);
@@ -122,6 +124,7 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
     const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
     displacement2 = std::max(displacement2, MathExtra::lensq3(moved));
     const double f2 = MathExtra::lensq3(fs[i]), torque2 = MathExtra::lensq3(torques[i]);
+    nothing += 0.0 * (MathExtra::lensq3(vs[i]) + f2 + torque2);
     ahead.acceleration[i] = (std::sqrt(f2) + 2.5 * std::sqrt(torque2) / r) / mass;
     double load[3] = {}, torque[3] = {};
     bodies.add_load_to(i, load, torque);
@@ -131,17 +134,35 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
   if (held) velocities.include_held();
   velocities.include_others(atom, domain, bodies, keepers, lookahead_safety * update->dt);
 
-  constexpr int others = 5;
-  double most[others + MeetingVelocities::size] = {acceleration2, displacement2, spin2, heaviest,
-                                                   -lightest};
+  constexpr int others = 6;
+  double most[others + MeetingVelocities::size] = {
+      acceleration2, displacement2, spin2, heaviest, -lightest, nothing != 0.0 ? 1.0 : 0.0};
   velocities.pack(most + others);
   MPI_Allreduce(MPI_IN_PLACE, most, others + MeetingVelocities::size, MPI_DOUBLE, MPI_MAX, world);
+  if (most[5] != 0.0) refuse_endless();
   velocities.unpack(most + others);
   velocities.frame(ahead.frame);
   ahead.walls = velocities.fastest_wall(ahead.frame);
   ahead.limit = velocities.fastest(ahead.frame) + apf::LookAhead::spin_share * std::sqrt(most[2]);
   ahead.amplify = apf::amplification(most[3], -most[4]);
   return {velocities.spread(), std::sqrt(most[0]), std::sqrt(most[1])};
+}
+
+// collective
+void ParticleLookAhead::refuse_endless()
+{
+  NamedAtoms endless;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (const auto *of : {atom->v[i], atom->f[i], atom->torque[i]})
+      if (!std::isfinite(MathExtra::lensq3(of))) {
+        endless.add(atom->tag[i], 0.0);
+        break;
+      }
+  endless.gather(world);
+  error->all(FLERR, Error::NOLASTLINE,
+             "{} {}: velocity, force or torque is no finite number for {} particles (IDs {}); look "
+             "at them in the step before, and at the fixes that act on them",
+             command, carrier->id, endless.number(), endless.ids());
 }
 
 // whether collisions move a body

@@ -75,6 +75,18 @@ template <class Memory> class PartnerRecords {
 
   void copy(int from, int to) { last[to] = last[from]; }
 
+  // drops what is not kept by keep(partner's ID, memory as i sees it)
+  template <class Keep> void keep_if(int i, Keep &&keep)
+  {
+    for (int *at = &last[i]; *at != none;) {
+      int &next = records[*at / 2].before[*at % 2];
+      if (keep(partner_of(*at), seen(*at)))
+        at = &next;
+      else
+        *at = next;
+    }
+  }
+
   // gives partners their new IDs; what was with atoms that are gone is dropped
   void renumber(int i, const std::unordered_map<tagint, tagint> &new_id)
   {

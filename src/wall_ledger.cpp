@@ -87,8 +87,14 @@ void WallLedger::find_only_zones()
 
 void WallLedger::init(const std::string &of_fix)
 {
-  regions_move = false;
   areas.clear();
+  find_regions(of_fix);
+  move_regions();
+}
+
+void WallLedger::find_regions(const std::string &of_fix)
+{
+  regions_move = false;
   for (auto &zone : zones) {
     if (zone.region.empty()) continue;
     zone.inside = domain->get_region_by_id(zone.region);
@@ -97,7 +103,6 @@ void WallLedger::init(const std::string &of_fix)
                  of_fix, zone.region, zone.name);
     if (zone.inside->dynamic_check() || zone.inside->varshape) regions_move = true;
   }
-  move_regions();
 }
 
 void WallLedger::move_regions()

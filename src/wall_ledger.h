@@ -57,6 +57,7 @@ class WallLedger : protected Pointers {
   //   grid   where the surfaces come from, if they do from a file
   void complete(const std::vector<std::string> &names, const WallGrid *grid);
   void init(const std::string &of_fix);
+  void find_regions(const std::string &of_fix);    // that zones name; an error if one is gone
   void move_regions();    // to where they are in this step; called by all ranks
 
   int n_zones() const { return static_cast<int>(zones.size()); }

@@ -69,7 +69,8 @@ class InletFlux {
     add_up(inflow, columns);
   }
 
-  double flux() const { return upto.back(); }    // [length^3/time], in 2-D [length^2/time]
+  // [length^3/time], in 2-D [length^2/time]; 0 before it was measured
+  double flux() const { return upto.empty() ? 0.0 : upto.back(); }
   // of the fluid that enters, with an allowance for maxima between nodes
   double speed() const { return margin * fastest; }    // [length/time]
   const InletPlane &rectangle() const { return plane; }

@@ -24,8 +24,8 @@
 #include <string>
 #include <vector>
 
-// Whatever a test gets from LAMMPS passes here, since the comparisons of std::max are false for what
-// is no number, and pass over it.
+// Whatever a test gets from LAMMPS passes here, since the comparisons of std::max are false for
+// what is no number, and pass over it.
 inline void expect_finite(const double *numbers, size_t count, const std::string &name)
 {
   const auto *bad = std::find_if_not(numbers, numbers + count, [](double x) {

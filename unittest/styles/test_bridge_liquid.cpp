@@ -271,6 +271,29 @@ TEST(BridgeStyle, aggregates_know_the_atoms_of_bridges)
   }
 }
 
+// Two that a bridge joins, parted by a command: each has its own share again.
+TEST(BridgeStyle, liquid_of_bridges_that_commands_end_goes_back)
+{
+  const Liquid water;
+  const std::string dry = "pair_coeff * * " + elastic + "\n";
+  for (const std::string &change :
+       {std::string("set atom 2 x 5.5"), std::string("delete_atoms group one compress no"), dry}) {
+    SCOPED_TRACE(change);
+    Simulation sim;
+    Scene scene;
+    scene.style = granular(elastic + water.words() + "inventory 0.5");
+    build(sim, {{3.0, 4.0, 4.0}, {3.9999, 4.0, 4.0}, {6.0, 6.0, 6.0}}, scene);
+    sim.run("group one id 1\ncompute b all aggregate/contact\ncompute sum all reduce sum c_b[6]\n"
+            "thermo_style custom step c_sum\ntimestep 1.0e-13\nrun 0");
+    EXPECT_EQ(of_atom(sim, 2, 5), 1.0) << "bridges";
+    EXPECT_NEAR(sim.value("c_sum") / water.V(), 3.0, 1e-12);
+    sim.run(change + "\nrun 0");
+    EXPECT_EQ(of_atom(sim, 2, 5), 0.0);
+    EXPECT_NEAR(of_atom(sim, 2, 6) / water.V(), 1.0, 1e-12);
+    EXPECT_NEAR(sim.value("c_sum") / water.V(), change[0] == 'd' ? 2.0 : 3.0, 1e-12);
+  }
+}
+
 TEST(BridgeStyle, liquid_is_counted_by_pairs_and_walls_or_by_neither)
 {
   const Liquid water;

@@ -1,0 +1,156 @@
+// What scripts do between runs: atoms deleted, moved and renumbered, walls and regions taken away,
+// outputs asked for before and after.
+
+#include "scenes.h"
+
+#include <cstdio>
+
+namespace {
+
+void expect_error(Simulation &sim, const std::string &command, const std::string &words)
+{
+  const std::string said = sim.error_of(command);
+  EXPECT_NE(said.find(words), said.npos) << command << ": " << said;
+}
+
+// Spheres that touch across the box's borders in x and y and lie on a wall.
+void pile(Simulation &sim, const std::string &integrator)
+{
+  Scene scene;
+  scene.boundary = "p p f";
+  scene.style = adhesive +
+      "region part block 0 4 0 8 0 8\nregion right block 4 8 0 8 0 8\n"
+      "fix w all wall/levelset plane z 0 8" +
+      jkr + "zone part part\n";
+  build(sim, {}, scene);
+  std::vector<double> x;
+  for (int n = 0; n < 128; n++)
+    x.insert(x.end(), {0.5 + 0.999 * (n % 8), 0.5 + 0.999 * (n / 8 % 8), 0.499 + 0.998 * (n / 64)});
+  add_spheres(sim, x, std::vector<double>(x.size(), 0.0));
+  // thermo asks for none of them, since values of a step are kept
+  sim.run(integrator + "compute agg all aggregate/contact\ncompute dep all wall/deposit w\n" +
+          "thermo_style custom step\nrun 10");
+}
+
+const std::string by_mts = mts(4), by_verlet = "fix nve all nve/sphere\n";
+
+TEST(BetweenRuns, outputs_after_atoms_have_moved_ask_for_run_0)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const std::string change :
+         {"displace_atoms all move 0 0 0.01", "delete_atoms region right",
+          "delete_atoms region right compress no", "delete_atoms group all", "reset_atoms id",
+          "create_atoms 1 single 4 4 5 units box\nset group all diameter 1 density 1"}) {
+      SCOPED_TRACE(change);
+      Simulation sim;
+      pile(sim, integrator);
+      sim.run(change);
+      expect_error(sim, "write_dump all custom /dev/null id c_agg[1]", "use run 0 first");
+      for (const std::string output : {"c_agg[3]", "c_dep[1]", "f_w[1][9]", "f_w[2][13]", "f_w"})
+        expect_error(sim, "print $(" + output + ")", "use run 0 first");
+      sim.run("run 0");
+      const bool some = change != "delete_atoms group all";
+      EXPECT_EQ(sim.value("c_agg[3]") > 1.0, some);
+      EXPECT_EQ(sim.value("c_dep[1]") > 0.0, some && change.find("displace") != 0);
+    }
+}
+
+TEST(BetweenRuns, what_was_taken_away_is_named)
+{
+  for (const std::string &integrator : {by_mts, by_verlet}) {
+    Simulation sim;
+    pile(sim, integrator);
+    const double steps = integrator == by_mts ? 1.0 : 0.0;
+    const auto contacts = [&] {
+      return steps > 0.0 ? sim.value("f_nve[3]") : 0.0;
+    };
+    const double all = contacts(), at_wall = sim.value("f_w[7]");
+    EXPECT_EQ(at_wall, 64.0);
+    sim.run("region part delete");
+    expect_error(sim, "print $(f_w[1][9])", "region part of zone part does not exist any more");
+    sim.run("unfix w");
+    EXPECT_EQ(contacts(), all - steps * at_wall);
+    expect_error(sim, "print $(c_dep[1])", "needs the ID of a fix wall/levelset, got w");
+    sim.run("uncompute dep\npair_style none");
+    EXPECT_EQ(contacts(), 0.0);
+    expect_error(sim, "print $(c_agg[3])", "needs a pair style that keeps contacts");
+  }
+}
+
+TEST(BetweenRuns, a_run_without_setup_needs_the_lists_of_the_last_one)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const std::string change :
+         {"displace_atoms all move 0.4 0.3 0", "delete_atoms group one"}) {
+      Simulation sim;
+      pile(sim, integrator);
+      // else the first step builds lists anew
+      sim.run("neigh_modify every 1000 delay 1000\nrun 0\nrun 5 pre no\ngroup one id 1\nvelocity "
+              "all set 0.1 0.1 0\nrun 5 pre no\n" +
+              change);
+      expect_error(sim, "run 5 pre no", "use run without pre no");
+      sim.run("run 5\nrun 5 pre no");
+    }
+}
+
+TEST(BetweenRuns, an_inlet_has_let_in_nothing_before_its_first_run)
+{
+  Simulation sim;
+  Scene scene;
+  scene.boundary = "f p p";
+  build(sim, {}, scene);
+  sim.run("fix air all flow/field uniform 1 0 0 density 1 viscosity 1\n"
+          "fix in all inlet/flow x 1 air number 1 every 10 diameter 1 density 1 type 1 seed 1");
+  for (int n = 1; n <= 10; n++) EXPECT_EQ(sim.value("f_in[" + std::to_string(n) + "]"), 0.0) << n;
+}
+
+// A new particle that gets the ID of a deleted one is not in its contacts.
+TEST(BetweenRuns, contacts_of_deleted_particles_do_not_come_back)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const bool deleted : {false, true}) {
+      Simulation sim;
+      build(sim, {{4.0, 4.0, 4.0}, {4.995, 4.0, 4.0}, {4.0, 4.0, 6.0}});
+      sim.run(integrator +
+              "compute agg all aggregate/contact\nthermo_style custom step c_agg[1]\n"
+              "run 2");
+      EXPECT_EQ(sim.value("c_agg[1]"), 2.0);
+      // within reach of the neck, but not of first touch
+      if (deleted)
+        sim.run("group two id 2\ndelete_atoms group two compress no\n"
+                "create_atoms 1 single 5.0005 4 4\nset atom 2 diameter 1 density 1");
+      else
+        sim.run("set atom 2 x 5.0005");
+      sim.run("velocity all set 0 0 0\nrun 0");
+      EXPECT_EQ(sim.value("c_agg[1]"), deleted ? 0.0 : 2.0);
+    }
+}
+
+TEST(BetweenRuns, particles_at_one_place_or_without_numbers_are_refused)
+{
+  for (const std::string &integrator : {by_mts, by_verlet}) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}, {4.0, 4.0, 4.0}, {1.0, 1.0, 1.0}});
+    sim.run(integrator);
+    expect_error(sim, "run 1", "pairs of particles at one place, between which no direction is: 1");
+  }
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}, {1.0, 1.0, 1.0}});
+  sim.run(by_mts + "run 1\nset atom 2 vx 1e200");
+  expect_error(sim, "run 1", "is no finite number for 1 particles (IDs 2)");
+}
+
+TEST(BetweenRuns, pairs_that_begin_inside_each_other_are_warned_of)
+{
+  const std::string warning = "WARNING: Pair granular/adhesive: pairs that begin inside each other";
+  for (const double distance : {0.7, 0.99, 1.02}) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}, {4.0 + distance, 4.0, 4.0}});
+    const std::string said = log_of(sim, by_verlet + "run 1\n");
+    EXPECT_EQ(said.find(warning) != said.npos, distance < 0.9) << distance << said;
+    // no longer: it is a contact now
+    EXPECT_EQ(log_of(sim, "run 1\n").find(warning), said.npos);
+  }
+}
+
+}    // namespace
