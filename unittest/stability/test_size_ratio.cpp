@@ -55,38 +55,68 @@ TEST(SizeRatio, impacts_are_those_on_a_wall)
       }
 }
 
-// A large and a small sphere, held at an overlap, against a wall that holds a sphere of the radius
-// r/(1 + 1/ratio), and its contact radius against JKR's
+// The last sphere, held at overlaps with what touches it at x
+struct Held {
+  double force;         // at the overlap that is asked for, > 0 repels
+  double rest;          // the overlap without force
+  double radius, a0;    // of the contact, at these; of a pair only
+
+  Held(const Integrator &integrator, const std::vector<Sphere> &others, double diameter, double x,
+       double overlap, const std::string &law, const std::string &wall)
+  {
+    Simulation sim;
+    Scene scene;
+    scene.box = "-4 4 -4 4 -4 4";
+    scene.boundary = "f f f";
+    scene.style = pair_of(law) + wall;
+    auto spheres = others;
+    spheres.push_back({x, 0.0, 0.0, diameter});
+    build(sim, spheres, scene);
+    sim.run("compute a all pair/local p2\ncompute most all reduce max c_a inputs local\n"
+            "thermo_style custom step c_most\n" +
+            integrator.commands(1e-9));
+    const std::string id = std::to_string(spheres.size());
+    auto force_at = [&](double depth) {
+      sim.run("set atom " + id + " x " + digits(x + 0.5 * diameter - depth) + "\nrun 0 post no");
+      return sim.value("fx[" + id + "]");
+    };
+    force = force_at(overlap);
+    radius = sim.value("c_most");
+    double low = 0.0, high = 0.05 * diameter;
+    for (int n = 0; n < 50; n++) {
+      rest = 0.5 * (low + high);
+      (force_at(rest) < 0.0 ? low : high) = rest;
+    }
+    a0 = sim.value("c_most");
+  }
+};
+
+// A large and a small sphere against a wall that holds a sphere of the radius r/(1 + 1/ratio).
+// A wall does not tell its contact radius: JKR's is a0^2 = 3 R (overlap at rest).
 TEST(SizeRatio, is_a_wall)
 {
   for (const double ratio : {100.0, 1000.0})
     for (const auto &integrator : integrators) {
-      const double d = 1.0 / ratio, like = d / (1.0 + d), overlap = 0.005 * d;
-      const std::string law = " jkr 1.0e9 0.25 100.0";
-      auto f = [&](const std::vector<Sphere> &spheres, const std::string &wall, double *radius) {
-        Simulation sim;
-        Scene scene;
-        scene.box = "-4 4 -4 4 -4 4";
-        scene.boundary = "f f f";
-        scene.style = "pair_style granular/adhesive\npair_coeff * *" + law + "\n" + wall;
-        build(sim, spheres, scene);
-        sim.run("compute a all pair/local p2\ncompute most all reduce max c_a inputs local\n"
-                "thermo_style custom step c_most\n" +
-                integrator.commands(1e-9) + "run 0");
-        if (radius) *radius = sim.value("c_most");
-        return gather(sim, "f")[0];
-      };
-      double a = 0.0;
-      const double pair = f({{0.0, 0.0, 0.0}, {0.5 * (1.0 + d) - overlap, 0.0, 0.0, d}}, "", &a),
-                   wall = f({{0.5 * like - overlap, 0.0, 0.0, like}},
-                            "fix wall all wall/levelset plane x 0 NULL" + law, nullptr);
+      const double d = 1.0 / ratio, like = d / (1.0 + d), R = 0.5 * like, overlap = 0.005 * d;
+      const std::string law = " jkr 1.0e9 0.25 100.0", sizes = " at a size ratio of 100, 1000";
+      const Held pair(integrator, {{0.0, 0.0, 0.0}}, d, 0.5, overlap, law, ""),
+          wall(integrator, {}, like, 0.0, overlap, law,
+               "fix wall all wall/levelset plane x 0 NULL" + law);
+      expect_criterion(integrator.of("C8 *: force" + sizes + " over that of fix wall/levelset"),
+                       pair.force / wall.force, 0.999, 1.001);
       expect_criterion(
-          integrator.of("C8 *: force at a size ratio of 100, 1000 over that of fix wall/levelset"),
-          -pair / wall, 0.999, 1.001);
-      const JkrCurve curve{0.5 * like, 1e3 * Material().E_eff(), 100.0};
+          integrator.of("C8 *: overlap at rest" + sizes + " over that of fix wall/levelset"),
+          pair.rest / wall.rest, 0.999, 1.001);
       expect_criterion(
-          integrator.of("C8 *: contact radius at a size ratio of 100, 1000 over that of a wall"),
-          a / curve.a(overlap), 0.999, 1.001);
+          integrator.of("C8 *: contact radius at rest" + sizes + " over that of fix wall/levelset"),
+          pair.a0 / std::sqrt(3.0 * R * wall.rest), 0.999, 1.001);
+      const JkrCurve curve{R, 1e3 * Material().E_eff(), 100.0};
+      expect_criterion(
+          integrator.of("C8 *: contact radius at rest" + sizes + " over (9 pi gamma R^2/E)^(1/3)"),
+          pair.a0 / curve.a0(), 0.999, 1.001);
+      expect_criterion(
+          integrator.of("C8 *: contact radius at an overlap" + sizes + " over that of the law"),
+          pair.radius / curve.a(overlap), 0.999, 1.001);
     }
 }
 
