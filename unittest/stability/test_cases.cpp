@@ -208,20 +208,43 @@ TEST(Cases, viscous_bridge)
 }
 
 // C23: a force and stiff drag, step over tau = 10
+std::vector<double> speed_in_syrup(const Integrator &integrator, const std::string &law,
+                                   double viscosity, double density, double pull)
+{
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}});
+  const double tau = 1.0 / (18.0 * viscosity);
+  sim.run("fix pull all addforce 0 0 " + digits(pull) +
+          "\nfix air all flow/field uniform 1 0 0 density " + digits(density) + " viscosity " +
+          digits(viscosity) + "\nfix drag all flow/force air drag " + law + "\n" +
+          integrator.commands(10.0 * tau / integrator.inner) + "run 100");
+  return gather(sim, "v");
+}
+
 TEST(Cases, stiff_drag)
 {
+  const double mu = 1e4, alone = 3.0 * pi * mu;
   for (const auto &integrator : integrators) {
-    Simulation sim;
-    build(sim, {{4.0, 4.0, 4.0}});
-    const double mu = 1e4, tau = 1.0 / (18.0 * mu);
-    sim.run("fix pull all addforce 0 0 1e3\nfix air all flow/field uniform 1 0 0 density 1e-3 "
-            "viscosity 1e4\nfix drag all flow/force air drag stokes\n" +
-            integrator.commands(10.0 * tau / integrator.inner) + "run 100");
-    const auto v = gather(sim, "v");
+    const auto v = speed_in_syrup(integrator, "stokes", mu, 1e-3, 1e3);
     expect_criterion(integrator.of("C23 *: terminal velocity at a step of 10 tau, less 1"),
-                     v[2] / (1e3 / (3.0 * pi * mu)) - 1.0, -1e-6, 1e-6);
+                     v[2] / (1e3 / alone) - 1.0, -1e-6, 1e-6);
     expect_criterion(integrator.of("C23 *: velocity along the fluid, less 1"), v[0] - 1.0, -1e-6,
                      1e-6);
+    // among others, Di Felice: f = (1 - c)^-beta of the drag alone, and as much shorter a time
+    for (const double Re : {0.02, 1.0}) {
+      const double density = 100.0, c = 0.5, slip = Re * mu / density,
+                   beta = 3.7 - 0.65 * std::exp(-0.5 * std::pow(1.5 - std::log10(Re), 2)),
+                   f = std::pow(1.0 - c, -beta);
+      EXPECT_NEAR(f, Re == 1.0 ? 11.2 : 13.0, 0.1);
+      const auto hindered = speed_in_syrup(integrator, "difelice concentration " + digits(c), mu,
+                                           density, alone * f * slip);
+      const std::string crowd = " at c = 0.5, f = " + std::string(Re == 1.0 ? "11.2" : "13.0");
+      expect_criterion(
+          integrator.of("C23 *: terminal velocity at a step of 10 tau, less 1," + crowd),
+          hindered[2] / slip - 1.0, -1e-6, 1e-6);
+      expect_criterion(integrator.of("C23 *: velocity along the fluid, less 1," + crowd),
+                       hindered[0] - 1.0, -1e-6, 1e-6);
+    }
   }
 }
 
