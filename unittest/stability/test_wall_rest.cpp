@@ -116,11 +116,6 @@ constexpr int at_rest = 10000;
 // U is that of phi = gamma / (rho U^2 r) = 15.
 const double U = std::sqrt(material.gamma / (15.0 * r));
 
-std::string steps_of(int n)
-{
-  return std::to_string(n) + " steps";
-}
-
 // the way that the sphere has rolled: by the angle that stretches the spring, and the sliding
 // spring
 double offset(double share, double limit)
@@ -131,59 +126,84 @@ double offset(double share, double limit)
   return arm * M / (curve.rolling(curve.delta_eq()) * r) + slide;
 }
 
-TEST(WallRest, damped_at_half_the_rolling_limit)
+const std::string million = ", in 1e6 steps";
+
+void rest_damped(const Trial &trial)
 {
+  const auto &[integrator, name, more] = trial;
   const auto load = rolling("1");
-  const std::string damping = "damping tsuji 0.2 ";
-  for (const auto &[integrator, name, more] : trials()) {
-    Loaded held(integrator, load, 0.5, at_rest, damping, more);
-    const std::string of = "C13 " + name + ": ";
-    const int window = count(10000, 100000), in_steps = window / integrator.inner;
-    const std::string all = ", in " + steps_of(10 * window);
-    const double x = held.x();
-    expect_criterion(of + "offset over M/(4 F_C)", (x - 4.0) / offset(0.5, load.limit), 0.99, 1.01);
-    const std::string n = std::to_string(in_steps);
-    held.sim.run("fix mean all ave/time 1 " + n + " " + n + " v_w2\n");
-    held.run(10 * window - at_rest);
-    expect_criterion(of + "creep after 1e4 steps at half the rolling limit, of r" + all,
-                     std::fabs(held.x() - x) / r, 0.0, 1e-6);
-    const double rms = std::sqrt(held.sim.value("f_mean"));
-    const std::string what = of + "rms of the spin at last, of U/d" + all;
-    if (name != "respa") {
-      expect_criterion(what, rms / U, 0.0, 1e-9);
-      continue;
-    }
-    expect_unmet(what, rms / U, 0.0, 1e-9, 1e-3,
-                 "loads of the outer level are kicks, which shake the contact as long as they act");
-    const double kick = 0.5 * load.limit / load.inertia * integrator.inner * dt;
-    expect_criterion(of + "rms of the spin at last, of what the fluid gives in a step" + all,
-                     rms / kick, 0.0, 0.2);
+  Loaded held(integrator, load, 0.5, at_rest, "damping tsuji 0.2 ", more);
+  const std::string of = "C13 " + name + ": ";
+  const double x = held.x();
+  expect_criterion(of + "offset over M/(4 F_C)", (x - 4.0) / offset(0.5, load.limit), 0.99, 1.01);
+  const std::string n = std::to_string(100000 / integrator.inner);
+  held.sim.run("fix mean all ave/time 1 " + n + " " + n + " v_w2\n");
+  held.run(1000000 - at_rest);
+  expect_criterion(of + "creep after 1e4 steps at half the rolling limit, of r" + million,
+                   std::fabs(held.x() - x) / r, 0.0, 1e-6);
+  const double rms = std::sqrt(held.sim.value("f_mean"));
+  const std::string what = of + "rms of the spin at last, of U/d" + million;
+  if (name != "respa") {
+    expect_criterion(what, rms / U, 0.0, 1e-9);
+    return;
   }
+  expect_unmet(what, rms / U, 0.0, 1e-9, 1e-3,
+               "loads of the outer level are kicks, which shake the contact as long as they act");
+  const double kick = 0.5 * load.limit / load.inertia * integrator.inner * dt;
+  expect_criterion(of + "rms of the spin at last, of what the fluid gives in a step" + million,
+                   rms / kick, 0.0, 0.2);
+}
+
+TEST(WallRest, damped_at_half_the_rolling_limit_by_verlet)
+{
+  rest_damped(trials()[0]);
+}
+TEST(WallRest, damped_at_half_the_rolling_limit_by_respa)
+{
+  rest_damped(trials()[1]);
+}
+TEST(WallRest, damped_at_half_the_rolling_limit_by_mts)
+{
+  rest_damped(trials()[2]);
+}
+TEST(WallRest, damped_at_half_the_rolling_limit_on_the_inner_level)
+{
+  rest_damped(trials()[3]);
 }
 
 // Without any damping the sphere swings about the same place for ever, as a spring does: by no more
 // than in the beginning, and nowhere else.
-TEST(WallRest, undamped_at_half_the_rolling_limit)
+void rest_undamped(const Integrator &integrator)
 {
   const auto load = rolling("0");
-  for (const auto &integrator : integrators) {
-    Loaded held(integrator, load, 0.5, at_rest, "damping none ");
-    const int window = count(50000, 250000);
-    const std::string n = std::to_string(window / integrator.inner);
-    const std::string all = ", in " + steps_of(4 * window);
-    held.sim.run("fix mean all ave/time 1 " + n + " " + n + " v_w2 v_x\n");
-    held.run(2 * window - at_rest);
-    const double w2 = held.sim.value("f_mean[1]"), x = held.sim.value("f_mean[2]");
-    EXPECT_GT(std::sqrt(w2) / U, 1e-6) << "it swings";
-    held.run(2 * window);
-    expect_criterion(
-        integrator.of("C13 *: rms of the undamped spin, last quarter over the second" + all),
-        std::sqrt(held.sim.value("f_mean[1]") / w2), 0.9, 1.01);
-    expect_criterion(integrator.of("C13 *: creep of the undamped middle, of r" + all),
-                     std::fabs(held.sim.value("f_mean[2]") - x) / r, 0.0, 1e-6);
-    expect_criterion(integrator.of("C13 *: undamped middle over M/(4 F_C)" + all),
-                     (x - 4.0) / offset(0.5, load.limit), 0.99, 1.01);
-  }
+  Loaded held(integrator, load, 0.5, at_rest, "damping none ");
+  const int window = 250000;
+  const std::string n = std::to_string(window / integrator.inner);
+  held.sim.run("fix mean all ave/time 1 " + n + " " + n + " v_w2 v_x\n");
+  held.run(2 * window - at_rest);
+  const double w2 = held.sim.value("f_mean[1]"), x = held.sim.value("f_mean[2]");
+  EXPECT_GT(std::sqrt(w2) / U, 1e-6) << "it swings";
+  held.run(2 * window);
+  expect_criterion(
+      integrator.of("C13 *: rms of the undamped spin, last quarter over the second" + million),
+      std::sqrt(held.sim.value("f_mean[1]") / w2), 0.9, 1.01);
+  expect_criterion(integrator.of("C13 *: creep of the undamped middle, of r" + million),
+                   std::fabs(held.sim.value("f_mean[2]") - x) / r, 0.0, 1e-6);
+  expect_criterion(integrator.of("C13 *: undamped middle over M/(4 F_C)" + million),
+                   (x - 4.0) / offset(0.5, load.limit), 0.99, 1.01);
+}
+
+TEST(WallRest, undamped_at_half_the_rolling_limit_by_verlet)
+{
+  rest_undamped(integrators[0]);
+}
+TEST(WallRest, undamped_at_half_the_rolling_limit_by_respa)
+{
+  rest_undamped(integrators[1]);
+}
+TEST(WallRest, undamped_at_half_the_rolling_limit_by_mts)
+{
+  rest_undamped(integrators[2]);
 }
 
 // C14
