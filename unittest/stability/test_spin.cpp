@@ -249,7 +249,7 @@ std::vector<double> spin_to_rest(const Integrator &integrator, const Chain &chai
   if (preloaded) preload(sim, chain);
   turn(sim, chain, scaled(W, axis.e), {boost, 0.0, 0.0});
   sim.run(integrator.commands(dt) + "run " + std::to_string(8 * outer));
-  const auto before = springs(sim);
+  auto before = springs(sim);
   const Vector L = angular_momentum(sim);
   const double E = energy(sim), kinetic = E - sim.value("pe");
   double most = 0.0;
