@@ -10,6 +10,13 @@
 
 namespace apf_test {
 
+// between builds of the kernels: of laws that are called, not inlined, as with sanitizers
+#ifdef __SANITIZE_ADDRESS__
+constexpr double rounding_of_builds = 1e-10;
+#else
+constexpr double rounding_of_builds = 1e-12;
+#endif
+
 // The larger one; infinite if either is no number, which std::max would pass over.
 inline double larger(double a, double b)
 {

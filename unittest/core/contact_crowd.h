@@ -220,7 +220,7 @@ inline void expect_same_contact(const ContactList &a, int k, const ContactList &
       length2 += w[c] * w[c];
       apart2 += (u[c] - w[c]) * (u[c] - w[c]);
     }
-    ASSERT_LE(std::sqrt(apart2), 1e-12 * std::sqrt(length2)) << "history " << first;
+    ASSERT_LE(std::sqrt(apart2), rounding_of_builds * std::sqrt(length2)) << "history " << first;
   }
   ASSERT_NEAR(a.overlap(k), b.overlap(l), 1e-14);
   ASSERT_EQ(a.ended(k), b.ended(l));

@@ -169,7 +169,7 @@ TEST(BridgeKernel, every_build_agrees_with_the_law_taken_bridge_by_bridge)
           const int ended = blocks.evaluate(build.kernel(blocks.choice), dt);
           EXPECT_EQ(scalar.evaluate(scalar_bridges(scalar.choice), dt), ended);
           expect_same_bridges(blocks.list, scalar.list);
-          expect_same(blocks.loads(), scalar.loads(), scale, 1e-12);
+          expect_same(blocks.loads(), scalar.loads(), scale, rounding_of_builds);
           if (size > 100) {
             EXPECT_GT(ended, 0);
             EXPECT_LT(ended, size);

@@ -29,10 +29,10 @@ void expect_builds_agree(const Crowd &crowd)
       int counted = 0;
       for (int k = 0; k < size; k++) counted += scalar.list.ended(k);
       EXPECT_EQ(ended, counted);
-      expect_same_loads(blocks, scalar, scale, 1e-12);
+      expect_same_loads(blocks, scalar, scale, rounding_of_builds);
       for (int k = 0; k < size; k++) {
         expect_same_contact(blocks.list, k, scalar.list, k);
-        expect_same_parts(scalar, k, told[k], expected[k], 1e-12);
+        expect_same_parts(scalar, k, told[k], expected[k], rounding_of_builds);
       }
     }
   }

@@ -16,6 +16,7 @@ struct Row {
   std::string start;     // from units to particles in motion; not given again after a restart
   std::string styles;    // given again
   std::vector<std::vector<std::string>> outputs;    // each group is compared to its largest value
+  std::string axes = "xyz";                         // along which ranks are balanced
   std::string shift = "4 4 4";                      // through periodic boundaries; empty: see below
   std::string no_shift, no_data = "data files have no contacts or counters";
   std::string data_pair;    // given again after read_data
@@ -35,11 +36,11 @@ struct Row {
   }
 };
 
-inline std::string box(const std::string &boundary)
+inline std::string box(const std::string &boundary, const std::string &z = "0 8")
 {
   return "newton on\natom_modify sort 0 0\nunits lj\natom_style sphere\natom_modify map array\n"
          "comm_modify vel yes\nboundary " +
-      boundary + "\nregion box block 0 8 0 8 0 8\ncreate_box 1 box\n";
+      boundary + "\nregion box block 0 8 0 8 " + z + "\ncreate_box 1 box\n";
 }
 
 struct Mover {
@@ -152,6 +153,18 @@ inline std::vector<Row> table(const Files &files)
     row.outputs = {of_agg, entries("c_sum", 4, 5), {"c_sum[6]"}};
   }
   {
+    auto &row = add("... in a plane, with friction");
+    auto flat = aggregate;
+    for (auto &one : flat) one.z = one.vz = 0.0;
+    flat.erase(flat.begin() + 3);    // it stood above another one, as the sixth below
+    flat.erase(flat.begin() + 4);
+    row.start = "dimension 2\n" + box("p p p", "-0.5 0.5") + spheres(flat) + pair_of(lossy);
+    row.styles = "fix flat all enforce2d\n";
+    row.outputs = {{"pe"}};
+    row.axes = "xy";
+    row.shift = "4 4 0";
+  }
+  {
     auto &row = add("compute aggregate/contact");
     row.start = box("p p f") + spheres(pile) + pair_of(lossy);
     row.styles = floor + "\n" + agg;
@@ -221,6 +234,30 @@ inline std::vector<Row> table(const Files &files)
     row.outputs = {entries("f_in", 1, 2), entries("f_in", 3, 4), {"f_in[9]"}};
     row.no_shift = "places where particles enter do not move along";
     row.empty = 2 * row.half - 1;
+  }
+  {
+    auto &row = add("fix inlet/flow in a channel, contacts of what has entered");
+    row.start = box("f f p") + pair_of(lossy);
+    row.styles = "fix air all flow/field channel x y 0 8 200 density 1 viscosity 1\n"
+                 "fix in all inlet/flow x 0 air concentration 0.2 diameter uniform 0.6 0.9 "
+                 "density 1 type 1 seed 7 window 0.6 7.4 0.6 7.4 outlet x 5\n"
+                 "fix drag all flow/force air drag stokes torque yes\nneighbor 0.8 bin\n" +
+        agg;
+    row.outputs = {entries("f_in", 1, 2), entries("f_in", 3, 4), {"c_sum[4]"}};
+    row.no_shift = "places where particles enter do not move along";
+    row.empty = 2 * row.half - 1;
+    row.begin = 1e-2;
+  }
+  {
+    auto &row = add("fix flow/force brownian");
+    row.start = box("p p p") + crowd();
+    row.styles = "fix air all flow/field uniform 30 9 1 density 0.2 viscosity 0.5\n"
+                 "fix drag all flow/force air drag schiller torque yes brownian 0.5 4711\n";
+    row.outputs = {entries("f_drag", 1, 3)};
+    row.data_pair = pair_of(jkr);
+    row.random = true;
+    row.no_data = "";
+    row.begin = 1e-2;
   }
   {
     auto &row = add("fix flow/force brownian, all forces");

@@ -117,6 +117,11 @@ class Cases(unittest.TestCase):
         self.assertEqual([row[3] for row in flows], ["+4.0 +- 2.7 %", "+0.5 +- 0.2 %", "+3.5 +- 1.2 %"])
         self.assertEqual([row[4].split(",")[0] for row in flows], ["undecided", "yes", "NO"])
         self.assertIn("1 undecided", text)
+        # a miss that chance does not explain, or a large one, is one
+        text = (self.root / "bench/results/flow.txt").read_text()
+        for worse in ("+3.5 +- 0.5 n", "+6.0 +- 2.0 n"):
+            (self.root / "bench/results/flow.txt").write_text(text.replace("+3.5 +- 1.2 n", worse))
+            self.assertEqual(self.run_cases(tests)[0], 1, worse)
         # a file without such rows is none
         (self.root / "bench/results/flow.txt").write_text("words\n")
         self.assertEqual(self.run_cases(tests)[0], 1)
