@@ -135,6 +135,7 @@ void FixFlowForce::setup(int vflag)
   }
   part = 1.0;
   warn_of_ranges();
+  warn_of_later_forces();
 }
 
 /* ----------------------------------------------------------------------

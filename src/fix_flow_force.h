@@ -103,6 +103,8 @@ class FixFlowForce : public FixPerGrid {
   class FixFlowField *find_field(int iarg);
   void check_particles();
   void warn_of_second_drag();
+  bool adds_forces(class Fix *) const;
+  void warn_of_later_forces();
   void check_other_fixes();
   bool shares_atoms(int bit) const;
   void warn_of_ranges();

@@ -13,12 +13,16 @@
 #include "given_once.h"
 #include "math_const.h"
 #include "modify.h"
+#include "type_sizes.h"
 #include "update.h"
 
+#include "flow/cunningham.h"
 #include "flow/di_felice.h"
+#include "flow/relaxation.h"
 #include "flow/schiller_naumann.h"
 #include "flow/stokes.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -286,19 +290,6 @@ void FixFlowForce::check_other_fixes()
                        "Fix flow/force {}: keyword gravity and fix {} gravity both act on the same "
                        "particles: their weight counts twice",
                        id, other->id);
-  if (modify->get_fix_by_style("^nve/sphere/mts").empty()) {
-    bool later = false;
-    for (const auto &other : modify->get_fix_list()) {
-      later = later || other == this;
-      if (later && utils::strmatch(other->style, "^wall/levelset") &&
-          shares_atoms(other->groupbit) && comm->me == 0)
-        error->warning(
-            FLERR,
-            "Fix flow/force {} stands before fix {} {}: drag on particles that this wall "
-            "holds is too small at long time steps; define it after all walls",
-            id, other->id, other->style);
-    }
-  }
   if (!model.added_mass) return;
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, Error::NOLASTLINE,
@@ -312,6 +303,57 @@ void FixFlowForce::check_other_fixes()
                  "Fix flow/force {} added_mass and fix {} act on the same particles: one fix must "
                  "have all their forces",
                  id, other->id);
+}
+
+/* ----------------------------------------------------------------------
+   Forces of fixes that come later take no part in the balance with the drag, and move a particle
+   1/phi times as fast as they should, phi(h/tau) of relaxation.h.
+------------------------------------------------------------------------- */
+
+bool FixFlowForce::adds_forces(Fix *other) const
+{
+  if (!(modify->get_fix_mask(other) & FixConst::POST_FORCE) || other->time_integrate) return false;
+  // under fix nve/sphere/mts particles relax together with the forces of their contacts
+  if (utils::strmatch(other->style, "^wall/levelset")) return !sub_stepper;
+  // those that set forces or torques, or take a part of them, and those that measure
+  for (const char *style :
+       {"^setforce", "^aveforce", "^lineforce", "^planeforce", "^freeze", "^enforce2d",
+        "^settorque", "^add/heat", "^store/", "^numdiff", "^nonaffine", "^pair$", "^flow/force"})
+    if (utils::strmatch(other->style, style)) return false;
+  return model.torque || !utils::strmatch(other->style, "^addtorque/atom");
+}
+
+void FixFlowForce::warn_of_later_forces()
+{
+  std::string later;
+  bool after = false;
+  for (const auto &other : modify->get_fix_list()) {
+    if (after && adds_forces(other) && (other->igroup == igroup || shares_atoms(other->groupbit)))
+      later += fmt::format("{}fix {} {}", later.empty() ? "" : ", ", other->id, other->style);
+    after = after || other == this;
+  }
+  if (later.empty()) return;
+
+  double rate = 0.0;
+  for_blocks([&] {
+    fluid_forces(model, block->fluid, block->forces);
+    for (int l = 0; l < block->forces.n; l++) rate = std::max(rate, block->forces.rate[l]);
+  });
+  MPI_Allreduce(MPI_IN_PLACE, &rate, 1, MPI_DOUBLE, MPI_MAX, world);
+  const auto sizes = TypeSizes::find(lmp, command, igroup);    // particles to come included
+  const double d = 2.0 * sizes.smallest_radius(), m = sizes.smallest_mass();
+  if (rate == 0.0 && m > 0.0)
+    rate = apf::stokes_resistance(model.viscosity, d) / m /
+        (model.mean_free_path > 0.0 ? apf::slip_correction(model.mean_free_path, d) : 1.0);
+  const double ratio = step() * rate;
+  constexpr double much = 0.1;    // forces 5 % too large
+  if (ratio <= much || comm->me != 0) return;
+  error->warning(FLERR,
+                 "Fix flow/force {} stands before {}: the timestep is up to {:.3g} times the "
+                 "relaxation time of particles, which forces of later fixes move up to {:.3g} "
+                 "times as fast as they should, and where walls hold them drag is too small; "
+                 "define fix flow/force after all fixes that apply forces",
+                 id, later, ratio, 1.0 / apf::mean_decay(ratio));
 }
 
 /* ----------------------------------------------------------------------

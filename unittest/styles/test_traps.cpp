@@ -1,0 +1,102 @@
+// Scripts that would run to their end with wrong physics: what is wrong is told before the run, and
+// the script that is right is not told.
+
+#include "scenes.h"
+
+#include "gtest/gtest.h"
+
+namespace {
+
+bool has(const std::string &text, const std::string &words)
+{
+  return text.find(words) != std::string::npos;
+}
+
+// dust of 1 um in air, whose relaxation time is rho d^2/(18 mu) = 8.02e-6 s
+const std::string dust = R"(
+units si
+atom_style sphere
+atom_modify map array
+comm_modify vel yes
+neighbor 1e-5 bin
+region box block 0 2e-4 0 2e-4 0 2e-4
+create_box 1 box
+create_atoms 1 single 1e-4 1e-4 1e-4
+set group all diameter 1e-6 density 2600
+pair_style granular/adhesive
+pair_coeff * * jkr 1e7 0.3 0.02
+fix air all flow/field uniform 0 0 0 density 1.2 viscosity 1.8e-5
+)";
+constexpr double tau = 2600.0 * 1e-12 / (18.0 * 1.8e-5);
+const std::string drag = "fix drag all flow/force air drag stokes\n";
+
+}    // namespace
+
+// Stokes's terminal velocity is g tau; under a force that the drag does not know of it is 1/phi
+// times as large, with phi(z) = (1 - exp(-z))/z and z = h/tau.
+TEST(Traps, forces_of_fixes_after_the_drag)
+{
+  const std::string words = "Fix flow/force drag stands before ";
+  const auto settles = [&](const std::string &fixes, double h, std::string &log) {
+    Simulation sim;
+    sim.run(dust + fixes + "timestep " + digits(h) + "\n");
+    log = log_of(sim, "run 100\n");
+    return -sim.value("vz[1]") / (9.81 * tau);
+  };
+  const std::string weight = "fix g all gravity 9.81 vector 0 0 -1\n";
+  for (const std::string move :
+       {"fix move all nve/sphere\n", "fix move all nve/sphere/mts collision auto\n"}) {
+    SCOPED_TRACE(move);
+    std::string log;
+    const double h = 1e-4, z = h / tau;
+    EXPECT_NEAR(settles(drag + weight + move, h, log), z / (1.0 - std::exp(-z)), 1e-9);
+    EXPECT_TRUE(has(log, words + "fix g gravity")) << log;
+    EXPECT_TRUE(has(log, "up to 12.5 times the relaxation time")) << log;
+    EXPECT_EQ(log.find(words), log.rfind(words)) << "once in a run";
+    EXPECT_NEAR(settles(weight + drag + move, h, log), 1.0, 1e-9);
+    EXPECT_FALSE(has(log, words)) << log;
+    settles(drag + weight + move, 0.09 * tau, log);
+    EXPECT_FALSE(has(log, words)) << "5 % are not told" << log;
+    settles(drag + weight + move, 0.11 * tau, log);
+    EXPECT_TRUE(has(log, words)) << log;
+  }
+}
+
+// All that apply forces are named, none that sets or measures them, nor one of other particles.
+TEST(Traps, which_fixes_apply_forces)
+{
+  const std::string walls = "change_box all boundary p f p\n"
+                            "fix floor all wall/levelset plane y 0 NULL jkr 1e7 0.3 0.02\n";
+  const auto log = [](const std::string &fixes) {
+    Simulation sim;
+    sim.run(dust + fixes + "timestep 1e-4\n");
+    return log_of(sim, "run 0\n");
+  };
+  const std::string verlet = "fix move all nve/sphere\n",
+                    mts = "fix move all nve/sphere/mts collision auto\n";
+  const std::string text = log(drag + walls + "fix push all addforce 0 0 1e-15\n" +
+                               "fix pull all spring/self 1e-9\n" + verlet);
+  EXPECT_TRUE(has(text,
+                  "stands before fix floor wall/levelset, fix push addforce, fix pull "
+                  "spring/self: the timestep"))
+      << text;
+  for (const std::string &fixes :
+       {drag + "fix hold all setforce NULL NULL 0\nfix keep all store/force\nfix ice all freeze\n" +
+            "fix mean all ave/atom 1 1 1 fx\nfix line all lineforce 1 0 0\n" + verlet,
+        drag + "group none empty\nfix g none gravity 9.81 vector 0 0 -1\n" + verlet,
+        drag + walls + mts}) {
+    EXPECT_FALSE(has(log(fixes), "stands before")) << fixes;
+  }
+}
+
+// An empty box that an inlet fills: its particles decide.
+TEST(Traps, forces_on_particles_to_come)
+{
+  Simulation sim;
+  sim.run(dust +
+          "delete_atoms group all compress no\nfix wind all flow/field uniform 0 1 0 density 1.2 "
+          "viscosity 1.8e-5\n"
+          "fix in all inlet/flow y 1e-5 wind number 1 diameter 1e-6 density 2600 type 1 seed 1\n" +
+          drag + "fix g all gravity 9.81 vector 0 0 -1\nfix move all nve/sphere\ntimestep 1e-4\n");
+  EXPECT_TRUE(has(log_of(sim, "run 0\n"), "fix g gravity: the timestep is up to 12.5 times"));
+}
