@@ -134,6 +134,7 @@ int FixFlowForce::parse_brownian(int iarg, int /*narg*/, char **arg)
   const int seed = reader.integer(iarg + 2, "brownian seed", Range::above(0));
   if (!atom->tag_enable) error->all(FLERR, iarg, "Fix flow/force brownian requires atom IDs");
   model.brownian = true;
+  time_depend = 1;    // else reset_timestep would bring the same random numbers again
   model.kT = force->boltz * temperature;
   model.seed = static_cast<std::uint32_t>(seed);
   return iarg + 3;

@@ -100,3 +100,18 @@ TEST(Traps, forces_on_particles_to_come)
           drag + "fix g all gravity 9.81 vector 0 0 -1\nfix move all nve/sphere\ntimestep 1e-4\n");
   EXPECT_TRUE(has(log_of(sim, "run 0\n"), "fix g gravity: the timestep is up to 12.5 times"));
 }
+
+// The random force is a function of the step: run after run from step 0 it would be the same.
+TEST(Traps, steps_of_brownian_motion_begin_anew)
+{
+  const std::string noise = "fix drag all flow/force air drag stokes brownian 293 4711\n",
+                    steps = "timestep 1e-4\nrun 3\n", again = "reset_timestep 0\n";
+  const auto error = [&](const std::string &commands) {
+    Simulation sim;
+    return sim.error_of(dust + "fix move all nve/sphere\n" + commands);
+  };
+  EXPECT_TRUE(has(error(noise + steps + again),
+                  "Cannot reset timestep with time-dependent fix flow/force defined"));
+  EXPECT_EQ(error(drag + steps + again + steps), "");
+  EXPECT_EQ(error(drag + steps + "unfix drag\n" + again + noise + steps), "");
+}
