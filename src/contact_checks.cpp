@@ -91,11 +91,27 @@ namespace {
   };
 }    // namespace
 
+std::string why_idle(LAMMPS *lmp, const Fix *fix)
+{
+  const int group = fix->igroup;
+  for (const char *inserts : {"^inlet/flow", "^deposit", "^pour"})
+    for (const auto &other : lmp->modify->get_fix_by_style(inserts))
+      if (group == 0 || other->igroup == group) return {};    // 0: all
+  if (lmp->group->dynamic[group] || lmp->group->count(group) > 0) return {};
+  return fmt::format("its group {0} is empty; a group gets the particles that are there at its "
+                     "command: give group {0} after them",
+                     lmp->group->names[group]);
+}
+
+void check_group(LAMMPS *lmp, const std::string &does, const Fix *fix)
+{
+  const std::string reason = why_idle(lmp, fix);
+  if (!reason.empty() && lmp->comm->me == 0)
+    lmp->error->warning(FLERR, "{} nothing: {}", does, reason);
+}
+
 void check_scene(LAMMPS *lmp, const std::string &who, double diameter)
 {
-  bool filled_later = false;
-  for (const char *inserts : {"^inlet/flow", "^deposit", "^pour"})
-    filled_later |= !lmp->modify->get_fix_by_style(inserts).empty();
   std::vector<std::string> warnings;
   for (const auto &fix : lmp->modify->get_fix_list()) {
     if (!fix->time_integrate) continue;
@@ -108,9 +124,10 @@ void check_scene(LAMMPS *lmp, const std::string &who, double diameter)
       warnings.push_back(fmt::format("{}: fix {} has style nve, which does not turn particles; "
                                      "friction and fluid torque need fix nve/sphere",
                                      who, fix->id));
-    if (!filled_later && !lmp->group->dynamic[fix->igroup] && lmp->group->count(fix->igroup) == 0)
-      warnings.push_back(fmt::format("{}: fix {} {} moves nothing: its group {} is empty", who,
-                                     fix->id, fix->style, lmp->group->names[fix->igroup]));
+    const std::string reason = why_idle(lmp, fix);
+    if (!reason.empty())
+      warnings.push_back(
+          fmt::format("{}: fix {} {} moves nothing: {}", who, fix->id, fix->style, reason));
   }
   const double skin = lmp->neighbor->skin;
   const bool looks_ahead = !lmp->modify->get_fix_by_style("^nve/sphere/mts").empty();

@@ -9,6 +9,7 @@
 #include <string>
 
 namespace LAMMPS_NS {
+class Fix;
 class LAMMPS;
 
 constexpr double much_overlap = 0.05;    // of the smaller radius: laws are made for small contacts
@@ -27,6 +28,13 @@ void check_direction(LAMMPS *lmp, const std::string &who);
 
 // A warning where the step is too large for the stiffest mode, with the step that would do.
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
+
+// Why a fix has no particles when a run begins, nor gets them from one that inserts: its group is
+// empty. Nothing if it has some. Collective.
+std::string why_idle(LAMMPS *lmp, const Fix *fix);
+// A warning of it.
+//   does   begins the message, as in "Fix wall/levelset floor touches"
+void check_group(LAMMPS *lmp, const std::string &does, const Fix *fix);
 
 // What a user of granular particles forgets. Warnings: a skin many particles wide (the default of
 // units si is 1 mm), particles wider than the box (the default diameter is 1), integrators that do

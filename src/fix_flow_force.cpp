@@ -103,6 +103,7 @@ void FixFlowForce::init()
   check_particles();
   check_units(lmp, command);
   check_direction(lmp, fmt::format("{} {}", command, id));
+  check_group(lmp, fmt::format("{} {} moves", command, id), this);
   if (!concentration_id.empty()) cloud = find_concentration(Error::NOLASTLINE);
   if (feedback) feedback->set_up();
   check_other_fixes();

@@ -115,3 +115,27 @@ TEST(Traps, steps_of_brownian_motion_begin_anew)
   EXPECT_EQ(error(drag + steps + again + steps), "");
   EXPECT_EQ(error(drag + steps + "unfix drag\n" + again + noise + steps), "");
 }
+
+TEST(Traps, groups_that_are_empty)
+{
+  const std::string wall = " wall/levelset plane y 0 NULL jkr 1e7 0.3 0.02\n",
+                    empty = "group dust empty\n", all = "group dust type 1\n";
+  const auto log = [&](const std::string &group, const std::string &more = "") {
+    Simulation sim;
+    sim.run(dust + "change_box all boundary p f p\n" + group + "fix floor dust" + wall +
+            "fix drag dust flow/force air drag stokes\nfix move all nve/sphere\n" + more +
+            "timestep 1e-8\n");
+    return log_of(sim, "run 0\n");
+  };
+  const std::string inlet = " inlet/flow y 1e-5 wind number 1 diameter 1e-6 density 2600 type 1 "
+                            "seed 1\nfix force all flow/force wind drag stokes\n",
+                    wind = "fix wind all flow/field uniform 0 1 0 density 1.2 viscosity 1.8e-5\n";
+  for (const std::string &group : {empty, empty + wind + "fix in all" + inlet}) {
+    const auto text = log(group);
+    for (const std::string begin : {"Fix wall/levelset floor touches", "Fix flow/force drag moves"})
+      EXPECT_TRUE(has(text, begin + " nothing: its group dust is empty; a group gets the")) << text;
+  }
+  for (const std::string &group :
+       {all, empty + wind + "fix in dust" + inlet, std::string("group dust dynamic all every 1\n")})
+    EXPECT_FALSE(has(log(group), "is empty")) << group;
+}
