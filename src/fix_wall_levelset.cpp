@@ -146,6 +146,7 @@ void FixWallLevelset::check_particles()
   const auto sizes = TypeSizes::find(lmp, command, igroup);
   const double r = sizes.smallest_radius(), m = sizes.smallest_mass();
   overlap_at_rest = 0.0;
+  check_borders();
   if (r == 0.0) return;
   for (const auto &surface : surfaces)
     if (surface.shape == apf::Surface::Shape::cylinder && surface.side < 0.0 &&
@@ -167,6 +168,17 @@ void FixWallLevelset::check_particles()
       check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
                      apf::stiffest_mode(wet_contact, bodies, r), step_of_level());
   }
+}
+
+// Walls have no periodic images.
+void FixWallLevelset::check_borders()
+{
+  for (const auto &surface : surfaces)
+    if (surface.shape == apf::Surface::Shape::plane && domain->periodicity[surface.dim])
+      error->all(FLERR, Error::NOLASTLINE,
+                 "{} {}: plane needs a box that is not periodic in {}, or particles touch through "
+                 "it: change_box must leave boundary f or s there",
+                 command, id, "xyz"[surface.dim]);
 }
 
 // A particle beyond a fixed border of the box is lost, before it comes to a plane farther out.

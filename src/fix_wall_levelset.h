@@ -146,6 +146,7 @@ class FixWallLevelset : public FixContacts {
   void check_particles();
   void check_places();
   void check_lists();    // before contacts are told of; called by all ranks
+  void check_borders();
   void check_reach(double smallest);
   void check_grid(double smallest, double largest);
   double speed_near(const double *x) const;          // of the wall, if it reached there

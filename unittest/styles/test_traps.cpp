@@ -139,3 +139,19 @@ TEST(Traps, groups_that_are_empty)
        {all, empty + wind + "fix in dust" + inlet, std::string("group dust dynamic all every 1\n")})
     EXPECT_FALSE(has(log(group), "is empty")) << group;
 }
+
+TEST(Traps, box_made_periodic_across_a_plane)
+{
+  const auto error = [](const std::string &boundary) {
+    Simulation sim;
+    return sim.error_of(dust +
+                        "change_box all boundary p f f\nfix floor all wall/levelset plane y 0 NULL "
+                        "jkr 1e7 0.3 0.02\nfix move all nve/sphere\ntimestep 1e-8\nrun 0\n"
+                        "change_box all boundary " +
+                        boundary + "\nrun 0\n");
+  };
+  EXPECT_TRUE(has(error("p p p"),
+                  "Fix wall/levelset floor: plane needs a box that is not periodic "
+                  "in y"));
+  EXPECT_EQ(error("p f p"), "");
+}
