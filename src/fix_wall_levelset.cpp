@@ -146,7 +146,7 @@ void FixWallLevelset::check_particles()
   const auto sizes = TypeSizes::find(lmp, command, igroup);
   const double r = sizes.smallest_radius(), m = sizes.smallest_mass();
   overlap_at_rest = 0.0;
-  check_borders();
+  check_borders(sizes.largest_radius());
   if (r == 0.0) return;
   for (const auto &surface : surfaces)
     if (surface.shape == apf::Surface::Shape::cylinder && surface.side < 0.0 &&
@@ -170,15 +170,45 @@ void FixWallLevelset::check_particles()
   }
 }
 
-// Walls have no periodic images.
-void FixWallLevelset::check_borders()
+// Walls have no periodic images: none may be seen from beyond a periodic border.
+void FixWallLevelset::check_borders(double largest)
 {
-  for (const auto &surface : surfaces)
+  for (const auto &surface : surfaces) {
     if (surface.shape == apf::Surface::Shape::plane && domain->periodicity[surface.dim])
       error->all(FLERR, Error::NOLASTLINE,
                  "{} {}: plane needs a box that is not periodic in {}, or particles touch through "
                  "it: change_box must leave boundary f or s there",
                  command, id, "xyz"[surface.dim]);
+    if (surface.shape == apf::Surface::Shape::cylinder) warn_of_borders(surface, largest);
+  }
+}
+
+void FixWallLevelset::warn_of_borders(const apf::Surface &cylinder, double largest)
+{
+  if (comm->me != 0 || domain->triclinic) return;
+  double axis[3];
+  for (int c = 0; c < 3; c++) axis[c] = 0.5 * (domain->boxlo[c] + domain->boxhi[c]);
+  axis[cylinder.first()] = cylinder.origin[0];
+  axis[cylinder.second()] = cylinder.origin[1];
+  if (motion.pose.moves) {
+    const double y[3] = {axis[0], axis[1], axis[2]};
+    motion.pose.to_space(y, axis);
+  }
+  const bool inside = cylinder.side < 0.0;
+  const double reach = cylinder.radius + (inside ? 0.0 : largest);
+  std::string borders;
+  for (const int c : {cylinder.first(), cylinder.second()})
+    for (const double side : {-1.0, 1.0}) {
+      const double border = side < 0.0 ? domain->boxlo[c] : domain->boxhi[c];
+      if (domain->periodicity[c] && side * (border - axis[c]) <= reach)
+        borders += fmt::format("{}{} = {:.6g}", borders.empty() ? "" : ", ", "xyz"[c], border);
+    }
+  if (borders.empty()) return;
+  error->warning(
+      FLERR, "{} {}: the cylinder {} the periodic border {}, {}; use boundary f, or {}", command,
+      id, inside ? "around the fluid reaches" : "comes within a particle's radius of", borders,
+      inside ? "through which particles pass or touch" : "beyond which particles do not meet it",
+      inside ? "a box that the cylinder lies in" : "move it away from the border");
 }
 
 // A particle beyond a fixed border of the box is lost, before it comes to a plane farther out.

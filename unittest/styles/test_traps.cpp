@@ -155,3 +155,37 @@ TEST(Traps, box_made_periodic_across_a_plane)
                   "in y"));
   EXPECT_EQ(error("p f p"), "");
 }
+
+// Particles have a radius of 5e-7, the box is 2e-4 wide.
+TEST(Traps, cylinders_at_periodic_borders)
+{
+  const auto log = [](const std::string &boundary, const std::string &cylinder) {
+    Simulation sim;
+    sim.run(dust + "change_box all boundary " + boundary + "\nfix w all wall/levelset cylinder " +
+            cylinder + "\nfix move all nve/sphere\ntimestep 1e-8\n");
+    return log_of(sim, "run 0\n");
+  };
+  const std::string law = " jkr 1e7 0.3 0.02", fiber = " 2e-5 outside" + law,
+                    within = "comes within a particle's radius of the periodic border ",
+                    around = "around the fluid reaches the periodic border ", period = "periodic";
+  EXPECT_TRUE(has(log("p p p", "z 1e-6 1e-4" + fiber), "the cylinder " + within + "x = 0, beyond"));
+  EXPECT_TRUE(has(log("p p p", "z 2e-5 1.8e-4" + fiber), within + "x = 0, y = 0.0002, beyond"));
+  EXPECT_TRUE(has(log("f p p", "x 2.04e-5 1.2e-4" + fiber), within + "y = 0, beyond"));
+  EXPECT_FALSE(has(log("p p p", "z 2.06e-5 1.2e-4" + fiber), period));
+  EXPECT_FALSE(has(log("f p p", "z 1e-6 1.2e-4" + fiber), period));
+  EXPECT_FALSE(has(log("f f p", "z 1e-6 1e-6" + fiber), period));
+
+  const std::string pipe = "z 1e-4 1e-4 ", inside = " inside" + law;
+  EXPECT_TRUE(has(log("p p p", pipe + "1.2e-4" + inside),
+                  around + "x = 0, x = 0.0002, y = 0, y = 0.0002, through which"));
+  EXPECT_TRUE(has(log("p f p", pipe + "1e-4" + inside), around + "x = 0, x = 0.0002, through"));
+  EXPECT_FALSE(has(log("p p p", pipe + "9.9e-5" + inside), period));
+  EXPECT_FALSE(has(log("f f p", pipe + "1.2e-4" + inside), period));
+
+  // where it has moved to by the time of the run
+  Simulation sim;
+  sim.run(dust + "fix w all wall/levelset cylinder z 3e-5 1.2e-4" + fiber +
+          " move linear -1 0 0\nfix move all nve/sphere\ntimestep 1e-7\n");
+  EXPECT_FALSE(has(log_of(sim, "run 100\n"), period));
+  EXPECT_TRUE(has(log_of(sim, "run 0\n"), within + "x = 0, beyond"));
+}
