@@ -65,6 +65,7 @@ void FixInletFlow::init()
                command, field_id, fix->style);
   field->require(apf::Detail::VORTICITY, false);
   check_plane();
+  warn_of_equal_seeds();
 
   walls.find(modify);
   walls.add(field);

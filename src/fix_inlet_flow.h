@@ -70,7 +70,7 @@ class FixInletFlow : public Fix {
   double sign, position;
   double window[2][2];    // lo, hi along the two other axes; NAN where it is the box's
   double concentration = 0.0, number = 0.0;
-  int every = 1, type = 0, attempts = 100;
+  int every = 1, type = 0, attempts = 100, seed = 0;
   double density = 0.0, gap = 0.0;
   apf::DiameterLaw diameters = apf::OneDiameter{0.0};    // none yet
   std::vector<Outlet> outlets;
@@ -97,6 +97,7 @@ class FixInletFlow : public Fix {
   void check_required() const;
   apf::InletPlane rectangle() const;
   void check_plane() const;
+  void warn_of_equal_seeds();
   void measure();
   double uniform();
   double draw_diameter();

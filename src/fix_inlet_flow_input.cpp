@@ -7,6 +7,7 @@
 #include "error.h"
 #include "fix_inlet_flow.h"
 #include "given_once.h"
+#include "modify.h"
 #include "random_mars.h"
 
 #include "flow/di_felice.h"
@@ -76,7 +77,8 @@ int FixInletFlow::parse_number(int iarg, int narg, char **arg)
   } else if (word == "attempts") {
     attempts = integer(Range::from(1));
   } else if (word == "seed") {
-    random = std::make_unique<RanMars>(lmp, integer(Range::from(1, 900000000)));
+    seed = integer(Range::from(1, 900000000));
+    random = std::make_unique<RanMars>(lmp, seed);
   } else if (word == "type") {
     need_value();
     // a number, or the name of one by labelmap
@@ -299,5 +301,21 @@ void FixInletFlow::check_plane() const
                  "{} particles must be smaller than the window, which is {} wide along {}, got a "
                  "diameter of {}",
                  command, plane.width(k), axes[axis], largest());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixInletFlow::warn_of_equal_seeds()
+{
+  if (comm->me != 0) return;
+  for (const auto &fix : modify->get_fix_by_style("^inlet/flow")) {
+    if (fix == this) return;    // the later one of two tells
+    const auto *other = dynamic_cast<FixInletFlow *>(fix);
+    if (other && other->seed == seed)
+      error->warning(FLERR,
+                     "{} {} and fix {} have the same seed {}: places and diameters of their "
+                     "particles are not independent; give one of them another",
+                     command, id, other->id, seed);
   }
 }

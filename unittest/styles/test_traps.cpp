@@ -189,3 +189,28 @@ TEST(Traps, cylinders_at_periodic_borders)
   EXPECT_FALSE(has(log_of(sim, "run 100\n"), period));
   EXPECT_TRUE(has(log_of(sim, "run 0\n"), within + "x = 0, beyond"));
 }
+
+TEST(Traps, inlets_of_one_seed)
+{
+  const auto enter = [](const std::string &seed, std::string &log) {
+    Simulation sim;
+    const std::string words =
+        " air number 1 diameter 1e-6 density 2600 type 1 window 5e-6 1.9e-4 5e-6 1.9e-4 seed ";
+    sim.run(dust +
+            "delete_atoms group all compress no\nunfix air\n"
+            "fix air all flow/field uniform 1 0 0 density 1.2 viscosity 1.8e-5\n"
+            "fix one all inlet/flow x 5e-5" +
+            words + "1\nfix two all inlet/flow x 1e-4" + words + seed +
+            "\nfix move all nve/sphere\ntimestep 1e-9\n");
+    log = log_of(sim, "run 1\n");
+    const auto x = gather(sim, "x");
+    return x.size() == 6 && x[1] == x[4] && x[2] == x[5];
+  };
+  const std::string words = "Fix inlet/flow two and fix one have the same seed 1: ";
+  std::string log;
+  EXPECT_TRUE(enter("1", log)) << "no copies";
+  EXPECT_TRUE(has(log, words)) << log;
+  EXPECT_EQ(log.find("the same seed"), log.rfind("the same seed")) << "once in a run";
+  EXPECT_FALSE(enter("2", log));
+  EXPECT_FALSE(has(log, "the same seed")) << log;
+}
