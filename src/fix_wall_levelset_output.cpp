@@ -6,6 +6,7 @@
 #include "comm.h"
 #include "compute_aggregate_contact.h"
 #include "domain.h"
+#include "error.h"
 #include "fix_contact_history.h"
 #include "restart_state.h"
 
@@ -104,6 +105,12 @@ void FixWallLevelset::set_global_state(RestartState &state)
   const bool moved = state.next() != 0.0;
   const double *pose = state.next(apf::WallPose::state_size);
   if (moved && motion.pose.moves) motion.pose.read(pose);
+  if (moved && !motion.pose.moves && comm->me == 0)
+    error->warning(FLERR,
+                   "{} {}: the wall of the restart file moves, this one has no keyword move and "
+                   "goes on at rest in its first place; give move as before, with velocities of 0 "
+                   "if it is to rest where it was",
+                   command, id);
   ledger.set_state(state, fmt::format("{} {}", command, id));
 }
 

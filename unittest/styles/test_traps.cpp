@@ -214,3 +214,36 @@ TEST(Traps, inlets_of_one_seed)
   EXPECT_FALSE(enter("2", log));
   EXPECT_FALSE(has(log, "the same seed")) << log;
 }
+
+// The wall has moved by 1e-5 when the file is written; its force on the sphere tells where it is.
+TEST(Traps, wall_of_a_restart_that_has_lost_its_motion)
+{
+  const std::string file = scratch_file("restart"), begin = dust.substr(0, dust.find("fix air")),
+                    wall = "fix w all wall/levelset plane x 8.952e-5 NULL jkr 1e7 0.3 0.02",
+                    to_right = " move linear 1 0 0";
+  const auto write = [&](const std::string &how) {
+    Simulation sim;
+    sim.run(begin + "change_box all boundary f p p\n" + wall + how +
+            "\ntimestep 1e-7\nrun 100\nwrite_restart " + file + "\n");
+  };
+  const auto read = [&](const std::string &how, std::string &log) {
+    Simulation sim;
+    sim.run("atom_modify map array\ncomm_modify vel yes\nread_restart " + file + "\n" +
+            "neighbor 1e-5 bin\n");
+    log = log_of(sim, wall + how + "\ntimestep 1e-9\nrun 0\n");
+    return sim.value("f_w[7]");
+  };
+  const std::string words = "WARNING: Fix wall/levelset w: the wall of the restart file moves";
+  std::string log;
+  write(to_right);
+  EXPECT_EQ(read("", log), 0.0) << "contact with a wall that should be 1.03e-5 away";
+  EXPECT_TRUE(has(log, words)) << log;
+  for (const std::string &how : {to_right, std::string(" move linear 0 0 0")}) {
+    EXPECT_EQ(read(how, log), 1.0) << "no contact where the wall was" << how;
+    EXPECT_FALSE(has(log, words)) << log;
+  }
+  write("");
+  read("", log);
+  EXPECT_FALSE(has(log, words)) << log;
+  std::filesystem::remove(file);
+}
