@@ -9,6 +9,7 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_granular_adhesive.h"
+#include "particle_checks.h"
 #include "respa.h"
 #include "update.h"
 
@@ -43,6 +44,7 @@ void FixContactHistory::init()
   if (!pair)
     error->all(FLERR, Error::NOLASTLINE,
                "Fix contact/history is internal to pair style granular/adhesive: use that instead");
+  check_diameters(lmp, "Pair granular/adhesive");
   const auto *respa = dynamic_cast<Respa *>(update->integrate);
   outermost = respa ? respa->nlevels - 1 : -1;
   force_reneighbor = respa ? 1 : 0;

@@ -17,6 +17,16 @@ void check_spheres(LAMMPS *lmp, const std::string &who, int iarg)
                     who, atom->get_style());
 }
 
+void check_diameters(LAMMPS *lmp, const std::string &who)
+{
+  for (const auto &fix : lmp->modify->get_fix_list())
+    if (fix->diam_flag)
+      lmp->error->all(FLERR, Error::NOLASTLINE,
+                      "{}: fix {} {} changes diameters within a run, which contacts do not see; "
+                      "unfix it and change them between runs, as in: set group all diameter D",
+                      who, fix->id, fix->style);
+}
+
 int frozen_groups(LAMMPS *lmp)
 {
   int bits = 0;

@@ -13,6 +13,10 @@ class LAMMPS;
 //   iarg   argument to point at, or Error::NOLASTLINE outside of the command
 void check_spheres(LAMMPS *lmp, const std::string &who, int iarg);
 
+// An error where a fix changes diameters within a run: who may touch, and by which law, is found
+// when lists are made.
+void check_diameters(LAMMPS *lmp, const std::string &who);
+
 // Bits of the groups that fix freeze holds: forces do not move their particles.
 int frozen_groups(LAMMPS *lmp);
 // ... whose mass counts that many times where a bridge is solved for the speed that it leaves. More

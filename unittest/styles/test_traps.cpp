@@ -247,3 +247,37 @@ TEST(Traps, wall_of_a_restart_that_has_lost_its_motion)
   EXPECT_FALSE(has(log, words)) << log;
   std::filesystem::remove(file);
 }
+
+// Diameters that fix adapt changes within a run are refused; between runs spheres that grow touch,
+// and their force is JKR's for the radius that they have.
+TEST(Traps, diameters_that_change_within_a_run)
+{
+  const std::string scene = "units lj\natom_style sphere 1\natom_modify map array\n"
+                            "comm_modify vel yes\nboundary p f p\n"
+                            "region box block 0 8 0 8 0 8\ncreate_box 1 box\n"
+                            "create_atoms 1 single 3 4 4\ncreate_atoms 1 single 4.02 4 4\n"
+                            "set group all diameter 1 density 1\ntimestep " +
+      digits(dt) + "\nfix move all nve/sphere\n";
+  const std::string none = "pair_style zero 1.2 nocoeff\npair_coeff * *\n",
+                    wall = "fix w all wall/levelset plane y 0 NULL" + jkr + "\n",
+                    grows = "variable d equal 1\nfix grow all adapt 1 atom diameter v_d\n";
+  const auto error = [&](const std::string &commands) {
+    Simulation sim;
+    return sim.error_of(scene + commands + "run 1\n");
+  };
+  const std::string words = ": fix grow adapt changes diameters within a run";
+  EXPECT_TRUE(has(error(adhesive + grows), "Pair granular/adhesive" + words));
+  EXPECT_TRUE(has(error(none + wall + grows), "Fix wall/levelset w" + words));
+  for (const std::string &right :
+       {none + grows, adhesive + wall, adhesive + grows + "unfix grow\n"})
+    EXPECT_EQ(error(right), "") << right;
+
+  Simulation sim;
+  sim.run(scene + adhesive + "unfix move\nrun 0\n");
+  EXPECT_EQ(sim.value("fx[1]"), 0.0);
+  for (const double d : {1.03, 1.035}) {    // the second one finds a contact
+    sim.run("set group all diameter " + digits(d) + "\nrun 0\n");
+    const double force = Material().pair(d, d).force(d - 1.02);
+    EXPECT_NEAR(-sim.value("fx[1]") / force, 1.0, 1e-9) << d;
+  }
+}
