@@ -146,7 +146,6 @@ class FixWallLevelset : public FixContacts {
   void check_particles();
   void check_places();
   void check_lists();    // before contacts are told of; called by all ranks
-  void check_borders();
   void check_borders(double largest);
   void warn_of_borders(const apf::Surface &cylinder, double largest);
   void check_reach(double smallest);
