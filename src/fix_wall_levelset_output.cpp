@@ -9,6 +9,7 @@
 #include "error.h"
 #include "fix_contact_history.h"
 #include "restart_state.h"
+#include "update.h"
 
 #include <cstring>
 
@@ -42,7 +43,7 @@ double FixWallLevelset::compute_vector(int n)
 {
   if (n >= n_loads) return bridge_load(n - n_loads);
   if (!loads_summed) {
-    check_lists();
+    if (wet) check_lists();    // liquid is settled with ghosts
     before_storing();
     double mine[n_loads];
     const auto loads = ledger.total_load();
@@ -73,10 +74,10 @@ double FixWallLevelset::bridge_load(int n)
 // rows: zones of the wall, and the whole of it
 double FixWallLevelset::compute_array(int row, int column)
 {
-  if (settled)
-    check_lists();
-  else
+  if (!settled)
     ledger.settle(touches(), aggregates.get());
+  else if (update->whichflag == 0)
+    ledger.find_regions(fmt::format("{} {}", command, id));    // one may be gone
   settled = true;
   return ledger.entry(row, column);
 }
