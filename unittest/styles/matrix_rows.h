@@ -22,8 +22,9 @@ struct Row {
   std::string data_pair;    // given again after read_data
   double begin = 0.0;    // what a cut changes: forces that follow velocities are taken anew there
   bool random = false;
-  int empty = 0;    // steps in which some output is 0
-  int half = 30;    // steps before a cut, and after it
+  bool enters = false;    // particles that depend on the step: none are the same with half of it
+  int empty = 0;          // steps in which some output is 0
+  int half = 30;          // steps before a cut, and after it
   std::vector<std::string> integrators = all_integrators;
 
   // for the table: with its integrators, if they are not the three
@@ -247,6 +248,7 @@ inline std::vector<Row> table(const Files &files)
     row.no_shift = "places where particles enter do not move along";
     row.empty = 2 * row.half - 1;
     row.begin = 1e-2;
+    row.enters = true;
   }
   {
     auto &row = add("fix flow/force brownian");

@@ -258,7 +258,7 @@ void try_out(std::vector<Trial> &trials, const Perturbation &how)
                  all = trial.deviation_of(how, {row.half, row.half});
     EXPECT_LE(first, limits.first) << trial.integrator << ", " << how.name << ", first step";
     EXPECT_LE(all, limits.all) << trial.integrator << ", " << how.name;
-    if (anew) trial.expect_error_of_the_step(all);
+    if (anew && !row.enters) trial.expect_error_of_the_step(all);
     most = {std::max(most.first, first), std::max(most.all, all)};
   }
   char text[64];
