@@ -305,14 +305,14 @@ int main(int argc, char **argv)
   for (const auto &one : fuzz::commands) all.push_back(one.command);
   fuzz::Mutator mutator(seed, all);
   fuzz::SpoiltGrids spoiler(seed);
-  int tried = 0, lost = 0, count[3] = {};
+  int lost = 0, count[3] = {};
   std::map<std::string, int> messages;
   const int each = std::max<int>(1, number / std::size(fuzz::commands));
   for (const auto &one : fuzz::commands) {
     if (one.command.find(only) == std::string::npos) continue;
     Simulation sim;
     sim.run(fuzz::scene + one.before);
-    for (int n = 0; n <= each; n++, tried++) {
+    for (int n = 0; n <= each; n++) {
       fuzz::Change change;
       const bool in_file = n % 2 && fuzz::SpoiltGrids::can(one.command);
       fuzz::SpoiltGrids::Spoilt spoilt;
@@ -345,7 +345,7 @@ int main(int argc, char **argv)
     for (const auto &message : messages) printf("%6d %s\n", message.second, message.first.c_str());
   printf("%d commands: %d accepted (%d lose particles), %d refused with %d kinds of messages, "
          "%d failures (seed %u)\n",
-         tried, count[Outcome::ACCEPTED], lost, count[Outcome::REFUSED],
+         count[0] + count[1] + count[2], count[Outcome::ACCEPTED], lost, count[Outcome::REFUSED],
          static_cast<int>(messages.size()), count[Outcome::FAILED], seed);
   MPI_Finalize();
   return count[Outcome::FAILED] ? 1 : 0;
