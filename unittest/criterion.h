@@ -25,7 +25,7 @@ inline void record_criterion(const std::string &what, double measured, double lo
   if (!known.second && margin >= known.first->second) return;
   known.first->second = margin;
   char numbers[96];
-  snprintf(numbers, sizeof(numbers), "%.4g|%.4g|%.4g", measured, low, high);
+  snprintf(numbers, sizeof(numbers), "%.4g|%.10g|%.10g", measured, low, high);
   testing::Test::RecordProperty(what, numbers + (why_not.empty() ? "" : "|" + why_not));
 }
 
