@@ -47,11 +47,13 @@ void WallLedger::parse(const char *command, const std::vector<std::string> &surf
   } else {
     zone.region = where;
     zone.inside = domain->get_region_by_id(where);
+    const bool left_out = where == "lo" || where == "hi";    // of two planes
     if (!zone.inside)
       error->all(
           FLERR, iarg + 2,
-          "{} zone {}: {} is neither a surface of this wall nor a region; its surfaces are {}",
-          command, name, where, joined(surface_names));
+          "{} zone {}: {} is neither a surface of this wall nor a region; its surfaces are {}{}",
+          command, name, where, joined(surface_names),
+          left_out ? "; a plane whose place is NULL is none" : "");
   }
   zones.push_back(zone);
   iarg += 3;

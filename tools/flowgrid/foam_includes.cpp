@@ -51,7 +51,7 @@ namespace {
         word += peek();
         if (word.size() == longest) return {};
       }
-      return word.c_str();    // VTK takes them up to the first 0, too
+      return word.substr(0, word.find('\0'));    // VTK takes them up to the first 0, too
     }
 
    private:
@@ -93,7 +93,7 @@ namespace {
         if (word.size() == longest) return {};
       }
       at++;
-      return word.c_str();
+      return word.substr(0, word.find('\0'));
     }
   };
 
