@@ -47,7 +47,8 @@ void WallLedger::parse(const char *command, const std::vector<std::string> &surf
   } else {
     zone.region = where;
     zone.inside = domain->get_region_by_id(where);
-    const bool left_out = where == "lo" || where == "hi";    // of two planes
+    const auto &only = surface_names.front();
+    const bool left_out = (where == "lo" && only == "hi") || (where == "hi" && only == "lo");
     if (!zone.inside)
       error->all(
           FLERR, iarg + 2,
