@@ -5,6 +5,7 @@
 
 #include "commands.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -115,8 +116,10 @@ class SpoiltGrids {
         const std::size_t choice = random() % (2 * std::size(numbers));
         const double number = call(
             "spike", choice < std::size(numbers) ? numbers[choice] : sign() * power(-3.0, 308.0));
-        const double at[3] = {static_cast<double>(random() % 9), static_cast<double>(random() % 9),
-                              static_cast<double>(random() % 9)};
+        const auto some = [this] {
+          return static_cast<double>(random() % 9);
+        };
+        const std::array<double, 3> at = {some(), some(), some()};
         return [number, at](const double *x, double right) {
           return x[0] == at[0] && x[1] == at[1] && x[2] == at[2] ? number : right;
         };

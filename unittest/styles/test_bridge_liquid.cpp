@@ -90,7 +90,7 @@ class FewerRanks {
 
 TEST(RanksBridge, liquid_is_conserved_in_shear_and_through_a_restart_on_fewer_ranks)
 {
-  const Integrator verlet = integrators[0], respa{"respa", 4}, sub_steps{"mts", 4};
+  const Integrator &verlet = integrators[0], respa{"respa", 4}, sub_steps{"mts", 4};
   struct {
     std::string split;
     double film;    // on the walls; -1: they give nothing
