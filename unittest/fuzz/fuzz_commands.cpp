@@ -122,9 +122,9 @@ bool says_what_is_wrong(const std::string &message, const std::string &command)
       reason.erase(at, name.size());
       break;
     }
-  for (const char *fact :
-       {"missing", "does not exist", "out of bounds", "takes no arguments", "coeffs are not set",
-        "overlap by", "pair style  in", "cannot be opened", "without a pair style"})
+  for (const char *fact : {"missing", "does not exist", "out of bounds", "takes no arguments",
+                           "coeffs are not set", "overlap by", "pair style  in", "cannot be opened",
+                           "without a pair style", "unmatched double quote"})
     if (reason.find(fact) != std::string::npos) return true;
 
   auto words = fuzz::split(lower(command));
