@@ -11,6 +11,14 @@
 #include <map>
 #include <string>
 
+// Limits of rounding are those of optimised builds. Where laws are called and not inlined, as with
+// sanitizers and for coverage, numbers round otherwise.
+#ifdef NDEBUG
+constexpr double unoptimised = 1.0;
+#else
+constexpr double unoptimised = 100.0;
+#endif
+
 // Of several of one name in a test the one nearest to a limit is kept. why_not: see expect_unmet.
 inline void record_criterion(const std::string &what, double measured, double low, double high,
                              const std::string &why_not = "")

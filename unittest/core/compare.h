@@ -3,6 +3,8 @@
 #ifndef APF_TEST_COMPARE_H
 #define APF_TEST_COMPARE_H
 
+#include "criterion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -10,12 +12,7 @@
 
 namespace apf_test {
 
-// between builds of the kernels: of laws that are called, not inlined, as with sanitizers
-#ifdef __SANITIZE_ADDRESS__
-constexpr double rounding_of_builds = 1e-10;
-#else
-constexpr double rounding_of_builds = 1e-12;
-#endif
+constexpr double rounding_of_builds = 1e-12 * unoptimised;    // of the kernels
 
 // The larger one; infinite if either is no number, which std::max would pass over.
 inline double larger(double a, double b)
