@@ -139,7 +139,7 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
       acceleration2, displacement2, spin2, heaviest, -lightest, nothing != 0.0 ? 1.0 : 0.0};
   velocities.pack(most + others);
   MPI_Allreduce(MPI_IN_PLACE, most, others + MeetingVelocities::size, MPI_DOUBLE, MPI_MAX, world);
-  if (most[5] != 0.0) refuse_endless();
+  if (most[5] != 0.0) refuse_not_finite();
   velocities.unpack(most + others);
   velocities.frame(ahead.frame);
   ahead.walls = velocities.fastest_wall(ahead.frame);
@@ -149,20 +149,20 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
 }
 
 // collective
-void ParticleLookAhead::refuse_endless()
+void ParticleLookAhead::refuse_not_finite()
 {
-  NamedAtoms endless;
+  NamedAtoms not_finite;
   for (int i = 0; i < atom->nlocal; i++)
     for (const auto *of : {atom->v[i], atom->f[i], atom->torque[i]})
       if (!std::isfinite(MathExtra::lensq3(of))) {
-        endless.add(atom->tag[i], 0.0);
+        not_finite.add(atom->tag[i], 0.0);
         break;
       }
-  endless.gather(world);
+  not_finite.gather(world);
   error->all(FLERR, Error::NOLASTLINE,
              "{} {}: velocity, force or torque is no finite number for {} particles (IDs {}); look "
              "at them in the step before, and at the fixes that act on them",
-             command, carrier->id, endless.number(), endless.ids());
+             command, carrier->id, not_finite.number(), not_finite.ids());
 }
 
 // whether collisions move a body

@@ -77,7 +77,7 @@ class ParticleLookAhead : protected Pointers {
 
   Extremes find_extremes(double slow_largest);
   bool moves(int i) const;
-  void refuse_endless();    // numbers that are not finite
+  void refuse_not_finite();    // numbers that are not finite
   void come_near(int i);
   bool set_reach(const Extremes &);
   void find_active();
