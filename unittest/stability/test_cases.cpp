@@ -15,11 +15,6 @@ namespace {
 const Material material;
 const double mass = pi / 6.0, inertia = 0.1 * mass;    // of a sphere of diameter and density 1
 
-std::string pair_of(const std::string &law)
-{
-  return "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
-}
-
 // C9: a held neck at -0.9 delta_C with loaded springs, lists built anew 1e4 times; a third sphere
 // flies
 TEST(Cases, neck_beyond_contact)

@@ -28,13 +28,6 @@ const std::vector<std::string> integrators = {
     "fix nve all nve/sphere/mts collision auto\n",
     "fix nve all nve/sphere/mts collision tolerance 0.01\n"};
 
-Scene beside_a_wall()
-{
-  Scene scene;
-  scene.boundary = "f p p";
-  return scene;
-}
-
 TEST(RanksFaults, no_particles)
 {
   for (const auto &integrator : integrators) {

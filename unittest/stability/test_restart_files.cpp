@@ -15,13 +15,6 @@ namespace {
 
 const std::string wall = "fix wall all wall/levelset plane x 0 NULL" + jkr + all_friction + "\n";
 
-Scene beside_a_wall()
-{
-  Scene scene;
-  scene.boundary = "f p p";
-  return scene;
-}
-
 // Every style with state marks its part of a restart file with the number of its format and the
 // count of its numbers. A part of another format, or of another length, is refused with the name of
 // the style that it belongs to, and nothing of the file is printed.

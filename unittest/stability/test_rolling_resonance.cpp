@@ -11,11 +11,6 @@ namespace {
 const Material material;
 const double mass = pi / 6.0, inertia = 0.1 * mass;    // of a sphere of diameter and density 1
 
-std::string pair_of(const std::string &law)
-{
-  return "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
-}
-
 // A sheet of 100 without end, each sphere turning against its four neighbours: all contacts
 // roll and none slides. I dOmega/dt = -4 (k xi + eta dxi/dt), dxi/dt = 2 R Omega, k = 4 F_C.
 TEST(Cases, rolling_resonance_of_a_sheet)

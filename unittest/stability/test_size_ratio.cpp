@@ -5,11 +5,6 @@
 
 namespace {
 
-std::string pair_of(const std::string &law)
-{
-  return "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
-}
-
 // C8: a small sphere and one 100 and 1000 times as large. e of a wall with R = r/(1 + 1/ratio); an
 // oblique impact with friction keeps the angular momentum.
 TEST(SizeRatio, impacts_are_those_on_a_wall)

@@ -61,10 +61,6 @@ inline std::string spheres(const std::vector<Mover> &all)
   }
   return text;
 }
-inline std::string pair_of(const std::string &law)
-{
-  return "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
-}
 inline std::vector<std::string> entries(const std::string &what, int from, int to)
 {
   std::vector<std::string> all;

@@ -58,8 +58,11 @@ struct Material {
 };
 inline const std::string jkr = " jkr 1.0e6 0.25 100.0 ";
 inline const std::string all_friction = " sliding 0.3 twisting yes rolling 0.02 ";
-inline const std::string adhesive =
-    "pair_style granular/adhesive\npair_coeff * *" + jkr + all_friction + "\n";
+inline std::string pair_of(const std::string &law)    // law: words that begin with a space
+{
+  return "pair_style granular/adhesive\npair_coeff * *" + law + "\n";
+}
+inline const std::string adhesive = pair_of(jkr + all_friction);
 
 constexpr double dt = 1.0 / 16384.0;    // a power of two: positions of moving scenes are exact
 inline double snap(double x)
@@ -94,6 +97,13 @@ struct Scene {
   int types = 1;
   std::vector<int> ids, type;    // of the spheres; 1, 2, ... and 1
 };
+
+inline Scene beside_a_wall()
+{
+  Scene scene;
+  scene.boundary = "f p p";
+  return scene;
+}
 
 inline void build(Simulation &sim, const std::vector<Sphere> &spheres, const Scene &scene = Scene())
 {
