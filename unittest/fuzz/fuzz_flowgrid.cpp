@@ -17,7 +17,7 @@
 #include <map>
 
 #define main flowgrid_main    // the program itself, to be called in a child
-#include "flowgrid.cpp"       // NOLINT(bugprone-suspicious-include)
+#include "flowgrid.cpp"       // NOLINT(bugprone-suspicious-include): see above
 #undef main
 
 namespace {

@@ -38,6 +38,9 @@ class Failures(unittest.TestCase):
         lines = failures.report(names, "".join(test_of(name, *(["x.cpp:1: Failure"] + 50 * ["y" * 500])) for name in names))
         self.assertEqual(len(lines), failures.SCREEN + 1)
         self.assertLessEqual(max(map(len, lines[1:])), failures.WIDTH + 4)
+        first = lines[0].split(": ")[1].split(" and ")
+        self.assertEqual(first[1], f"{300 - len(first[0].split(', '))} more")
+        self.assertLessEqual(len(lines[0]), 3 * failures.WIDTH)
 
 
 unittest.main()
