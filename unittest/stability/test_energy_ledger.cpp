@@ -226,6 +226,9 @@ TEST(EnergyLedger, elastic_spheres)
 {
   const int steps = count(3000, 100000);
   const auto alone = ledger({"verlet", 1}, "", 10, steps, 0.5 * dt);
+  expect_criterion("C27 verlet: change of momentum, no damping and friction, " +
+                       words(10, steps, {"verlet", 1}),
+                   alone.momentum, 0.0, 1e-12);
   for (const auto &one : many_rates) {
     const std::string what = "no damping and friction, " + words(10, steps, one);
     const auto account = ledger(one, "", 10, steps, 0.5 * dt);
@@ -266,12 +269,21 @@ TEST(EnergyLedger, hundred_thousand_spheres_mts) { many_spheres(46, many_rates[1
 TEST(EnergyLedger, at_the_step_of_the_report)
 {
   const int steps = count(1500, 100000);
+  const auto run = [&](const std::string &modes, const Integrator &by, int finer) {
+    return modes + ", " + std::to_string(finer * steps) +
+        " steps of f3 = " + (finer == 1 ? "0.1" : "0.05") + ", N = " + std::to_string(by.inner);
+  };
+  const auto named = [](const std::string &modes) {
+    return modes.empty() ? "no damping and friction" : "all modes";
+  };
   const auto missing = [&](const Integrator &by, const std::string &modes, int finer) {
-    return ledger(by, modes, 10, finer * steps, report_step / finer).missing;
+    const auto account = ledger(by, modes, 10, finer * steps, report_step / finer);
+    expect_criterion(by.of("C27 *: change of momentum, " + run(named(modes), by, finer)),
+                     account.momentum, 0.0, 1e-12);
+    return account.missing;
   };
   const auto what = [&](const Integrator &by, const std::string &modes, int finer) {
-    return by.of("C26 *: energy missing, " + modes + ", ") + std::to_string(finer * steps) +
-        " steps of f3 = " + (finer == 1 ? "0.1" : "0.05") + ", N = " + std::to_string(by.inner);
+    return by.of("C26 *: energy missing, " + run(modes, by, finer));
   };
   // for necks alone, for all modes
   const std::pair<Integrator, Integrator> trials[] = {

@@ -150,6 +150,13 @@ inline std::vector<Row> table(const Files &files)
     row.outputs = {of_agg, entries("c_sum", 4, 5), {"c_sum[6]"}};
   }
   {
+    auto &row = add("... of pair_style hybrid/overlay, beside pair soft");
+    row.start = box("p p p") + spheres(aggregate) +
+        "pair_style hybrid/overlay granular/adhesive soft 1.6\n";
+    row.styles = "pair_coeff * * granular/adhesive" + lossy + "\npair_coeff * * soft 3.0\n";
+    row.outputs = {{"pe"}};
+  }
+  {
     auto &row = add("... in a plane, with friction");
     auto flat = aggregate;
     for (auto &one : flat) one.z = one.vz = 0.0;
@@ -222,6 +229,14 @@ inline std::vector<Row> table(const Files &files)
     row.shift = "4 4 0";
   }
   {
+    auto &row = add("fix wall/levelset file with a film, bridges");
+    row.start = box("f f p") + spheres(pipe) + pair_of(wet);
+    row.styles = "fix wall all wall/levelset file " + files.pipe.path + wet + "film 0.01\n" + agg +
+        "neighbor 0.6 bin\n";
+    row.outputs = {entries("f_wall", 1, 3), {"f_wall[12]"}, {"c_sum[6]"}};
+    row.shift = "0 0 4";
+  }
+  {
     auto &row = add("fix inlet/flow, fix flow/force drag");
     row.start = box("f p p") + pair_of(jkr);
     row.styles = "fix air all flow/field uniform 200 0 0 density 1 viscosity 1\n"
@@ -232,8 +247,23 @@ inline std::vector<Row> table(const Files &files)
     row.no_shift = "places where particles enter do not move along";
     row.empty = 2 * row.half - 1;
   }
-  {
+  {    // in a window where there is hardly room
+    auto &row = add("fix inlet/flow number, what waits");
+    row.start = box("f p p") + pair_of(jkr);
+    row.styles = "fix air all flow/field uniform 200 0 0 density 1 viscosity 1\n"
+                 "fix in all inlet/flow x 0 air number 1.7 every 2 diameter uniform 0.3 0.5 "
+                 "density 1 type 1 seed 7 window 3.5 4.5 3.5 4.5 attempts 10 outlet x 5\n"
+                 "fix drag all flow/force air drag stokes torque yes\nneighbor 0.6 bin\n";
+    row.outputs = {entries("f_in", 1, 2), entries("f_in", 3, 4), {"f_in[5]"}};
+    row.no_shift = "places where particles enter do not move along";
+    row.empty = 2 * row.half - 1;
+  }
+  for (const bool any : {false, true}) {
     auto &row = add("fix inlet/flow in a channel, contacts of what has entered");
+    if (any) {
+      row.name += ", steps as needed";
+      row.integrators = {"mts auto", "mts tolerance 0.01"};
+    }
     row.start = box("f f p") + pair_of(lossy);
     row.styles = "fix air all flow/field channel x y 0 8 200 density 1 viscosity 1\n"
                  "fix in all inlet/flow x 0 air concentration 0.2 diameter uniform 0.6 0.9 "
@@ -335,6 +365,12 @@ inline std::vector<Row> table(const Files &files)
   }
 #endif
   for (const std::string how : {"auto", "tolerance 0.01"}) {
+    auto &wall = add("fix nve/sphere/mts collision " + how + " beside fix wall/levelset file");
+    wall.start = box("f f p") + spheres(pipe) + pair_of(lossy);
+    wall.styles = "fix wall all wall/levelset file " + files.pipe.path + lossy + "\n";
+    wall.integrators = {"mts " + how};
+    wall.outputs = {{"f_nve[1]"}, {"f_nve[3]"}, {"f_nve[4]"}, entries("f_wall", 1, 3)};
+    wall.shift = "0 0 4";
     auto &row = add("fix nve/sphere/mts collision " + how);
     row.start = box("p p p") + spheres(aggregate) + pair_of(lossy);
     row.integrators = {"mts " + how};

@@ -164,6 +164,8 @@ TEST(Concentration, hinders_settling)
 // C24: clouds of a hundred spheres at one place add up to more than the whole volume. Drag is that
 // of c = 0.64, the largest there is, 0.36^-3.7 of that of a sphere alone, and nothing where nothing
 // slips.
+const double dense_drag = 3.0 * pi * 1e4 * 0.4 * std::pow(0.36, -3.7);    // over the slip
+
 TEST(Concentration, clouds_that_overlap_leave_drag_finite)
 {
   Simulation sim;
@@ -176,10 +178,9 @@ TEST(Concentration, clouds_that_overlap_leave_drag_finite)
           "fix drag all flow/force air drag difelice concentration c torque yes lift saffman "
           "magnus yes\ntimestep 1e-12\nrun 0\n");
   EXPECT_GT(sim.value("f_c[2]"), 1.0) << "of the volume";
-  const double slow = 3.0 * pi * 1e4 * 0.4 * std::pow(0.36, -3.7);
   const auto f = gather(sim, "f");
   for (size_t i = 0; i < f.size(); i += 3) {
-    expect_criterion("C24 styles: drag in clouds of c > 1 over that at c = 0.64", f[i] / slow,
+    expect_criterion("C24 styles: drag in clouds of c > 1 over that at c = 0.64", f[i] / dense_drag,
                      0.999, 1.001);
     EXPECT_NEAR(f[i + 1] / f[i], 2.0, 1e-9);
     EXPECT_EQ(f[i + 2], 0.0) << "no lift";
@@ -188,6 +189,41 @@ TEST(Concentration, clouds_that_overlap_leave_drag_finite)
   expect_criterion("C24 styles: largest force without slip in clouds of c > 1",
                    largest(gather(sim, "f")), 0.0, 0.0);
   EXPECT_EQ(largest(gather(sim, "torque")), 0.0);
+}
+
+// Clouds narrower than their spheres: c > 1 without contacts. In steps of a tenth of the time of
+// relaxation, and in ones far longer.
+TEST(Concentration, spheres_in_clouds_too_narrow_move_as_drag_says)
+{
+  const double tau = pi / 6.0 * 0.064 / dense_drag;
+  const std::pair<std::string, std::string> integrators[] = {
+      {"verlet", "fix move all nve/sphere\n"},
+      {"respa", "fix move all nve/sphere\nrun_style respa 2 4 pair 1\n"},
+      {"mts", "fix move all nve/sphere/mts collision 4\n"}};
+  for (const auto &[name, commands] : integrators)
+    for (const auto &[of_tau, steps] : {std::pair(0.1, 20), std::pair(1e6, 4)}) {
+      Simulation sim;
+      sim.run("units lj\natom_style sphere\natom_modify map array\ncomm_modify vel yes\n"
+              "boundary p p p\nregion box block 0 2 0 2 0 2\ncreate_box 1 box\n"
+              "create_atoms 1 single 0.5 0.6 0.7\ncreate_atoms 1 single 1.5 1.4 1.6\n"
+              "set type 1 diameter 0.4 density 1\n" +
+              pair_of(jkr) +
+              "neighbor 0.4 bin\nfix air all flow/field uniform 1 2 0 density 1 viscosity 1e4\n"
+              "fix c all flow/concentration 40 40 40 cloud 0.16\n"
+              "fix drag all flow/force air drag difelice concentration c torque yes lift saffman "
+              "magnus yes\n" +
+              commands + "timestep " + digits(of_tau * tau) + "\nrun " + std::to_string(steps));
+      EXPECT_GT(sim.value("f_c[2]"), 1.0) << "of the volume";
+      const auto v = gather(sim, "v");
+      double differ = 0.0;
+      for (size_t i = 0; i < v.size(); i += 3)
+        differ = std::max({differ, std::fabs(v[i] + std::expm1(-steps * of_tau)),
+                           std::fabs(v[i + 1] - 2.0 * v[i]), std::fabs(v[i + 2])});
+      expect_criterion("C24 " + name + ": error of velocities after " + std::to_string(steps) +
+                           " steps of " + (of_tau < 1.0 ? "0.1" : "1e6") +
+                           " tau in clouds of c > 1, of the flow's",
+                       differ, 0.0, 1e-3);
+    }
 }
 
 TEST(Concentration, other_commands_read_the_grid)
