@@ -259,8 +259,10 @@ void APFAdvise::advise_steps()
 
   const bool sub_steps = !modify->get_fix_by_style("^nve/sphere/mts").empty();
   if (!sub_steps && needed > 1.0)
-    cures.push_back(
-        fmt::format("timestep {:.3g}, or fix nve/sphere/mts with collision {}", finest, needed));
+    cures.push_back(has_rigid_bodies(lmp)
+                        ? fmt::format("timestep {:.3g}", finest)
+                        : fmt::format("timestep {:.3g}, or fix nve/sphere/mts with collision {}",
+                                      finest, needed));
   constexpr double room = 1.1;    // the rule is one of thumb
   if (sub_steps && scene.step > room * particle)
     cures.push_back(fmt::format("timestep {:.3g} or less: a particle moves {:.3g} diameters in one",

@@ -100,7 +100,8 @@ void ComputeAggregateContact::find_aggregates()
     error->all(
         FLERR, Error::NOLASTLINE,
         "Compute aggregate/contact {} is asked for before the first forces of a run, as by a "
-        "variable of fix balance: keep its values for that by fix ave/atom",
+        "variable of fix balance or of a flow, or by a dynamic group: keep its values for that by "
+        "fix ave/atom",
         id);
   if (update->whichflag == 0) require_contacts();    // they may be gone since the last run
   if (update->whichflag == 0 && (!FixContacts::lists_hold(lmp) || atoms_have_changed()))

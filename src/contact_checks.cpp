@@ -54,10 +54,19 @@ void check_direction(LAMMPS *lmp, const std::string &who)
     lmp->error->all(FLERR, Error::NOLASTLINE, "{}: timestep must be >= 0, got {}", who, step);
 }
 
+bool has_rigid_bodies(LAMMPS *lmp)
+{
+  const auto &fixes = lmp->modify->get_fix_list();
+  return std::any_of(fixes.begin(), fixes.end(), [](const Fix *fix) {
+    return fix->rigid_flag != 0;
+  });
+}
+
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt)
 {
   const double kappa = mode.frequency * dt;
   if (kappa <= apf::accurate_kappa || lmp->comm->me != 0) return;
+  if (lmp->update->whichflag == 2) return;    // a minimiser has no step
   const double n = std::round(lmp->update->dt / dt), good = apf::accurate_kappa / mode.frequency;
   const bool sub_steps = !lmp->modify->get_fix_by_style("^nve/sphere/mts").empty();
   if (kappa <= apf::largest_stable_kappa) {
@@ -73,7 +82,8 @@ void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode
   const std::string cure = sub_steps
       ? fmt::format("collision {} gives {} at rest, impacts need more; collision auto chooses",
                     std::ceil(lmp->update->dt / good), apf::accurate_kappa)
-      : fmt::format("{:.3g} gives {}; or use fix nve/sphere/mts", good, apf::accurate_kappa);
+      : fmt::format("{:.3g} gives {}{}", good, apf::accurate_kappa,
+                    has_rigid_bodies(lmp) ? "" : "; or use fix nve/sphere/mts");
   lmp->error->warning(FLERR,
                       "{}: {} is too large for the {} mode of a contact, omega dt = {:.3g}; above "
                       "{} dense packings are unstable; {}",

@@ -26,6 +26,9 @@ void check_units(LAMMPS *lmp, const std::string &who);
 // An error where time goes backwards: dashpots and sliders would drive what they damp.
 void check_direction(LAMMPS *lmp, const std::string &who);
 
+// Whether some fix holds particles together in bodies: fix nve/sphere/mts cannot move these.
+bool has_rigid_bodies(LAMMPS *lmp);
+
 // A warning where the step is too large for the stiffest mode, with the step that would do.
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
 

@@ -32,7 +32,7 @@ FixFlowConcentration::FixFlowConcentration(LAMMPS *lmp, int narg, char **arg) :
     open(lmp, this, grid.n, 1)
 {
   check_spheres(lmp, command, 2);
-  if (domain->triclinic) error->all(FLERR, 2, "{} needs an orthogonal simulation box", command);
+  check_orthogonal(lmp, std::string(command) + " needs", 2);
   pergrid_flag = 1;
   pergrid_freq = 1;
   vector_flag = 1;
@@ -92,6 +92,7 @@ int FixFlowConcentration::setmask()
 
 void FixFlowConcentration::init()
 {
+  check_orthogonal(lmp, std::string(command) + " needs", Error::NOLASTLINE);
   set_up();    // the neighbor skin may have changed
   if (comm->me == 0 && !warned && radius < 0.25 * widest_cell())
     error->warning(FLERR,

@@ -29,7 +29,7 @@ FixInletFlow::FixInletFlow(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
 {
   check_spheres(lmp, command, 2);
   if (!atom->tag_enable) error->all(FLERR, 2, "{} needs atoms with IDs", command);
-  if (domain->triclinic) error->all(FLERR, 2, "{} needs an orthogonal simulation box", command);
+  check_orthogonal(lmp, std::string(command) + " needs", 2);
   restart_global = 1;
   force_reneighbor = 1;
   next_reneighbor = -1;
@@ -64,6 +64,7 @@ void FixInletFlow::init()
     error->all(FLERR, Error::NOLASTLINE, "{} field fix {} must be of style flow/field, got {}",
                command, field_id, fix->style);
   field->require(apf::Detail::VORTICITY, false);
+  check_orthogonal(lmp, std::string(command) + " needs", Error::NOLASTLINE);
   check_plane();
   warn_of_equal_seeds();
 

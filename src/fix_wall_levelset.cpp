@@ -114,6 +114,7 @@ void FixWallLevelset::init()
   check_units(lmp, command);
   check_direction(lmp, fmt::format("{} {}", command, id));
   check_diameters(lmp, fmt::format("{} {}", command, id));
+  check_cleared(lmp, fmt::format("{} {}", command, id), this);
   check_group(lmp, fmt::format("{} {} touches", command, id), this);
   motion.init(id);
   rebuild = true;    // atoms may have come, gone or moved since the last run

@@ -6,6 +6,7 @@
 #include "error.h"
 #include "fix.h"
 #include "modify.h"
+#include "particle_checks.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -19,8 +20,7 @@ static constexpr double box_tolerance = 1.0e-9;    // of the box's length
 GridFile::GridFile(LAMMPS *lmp, const char *command_in, const std::string &path_in, int iarg) :
     Pointers(lmp), command(command_in), path(path_in), position(iarg), numbers(world)
 {
-  if (domain->triclinic)
-    error->all(FLERR, iarg, "{} file requires an orthogonal box, not a triclinic one", command);
+  check_orthogonal(lmp, command + " file requires", iarg);
   attempt([this] {
     file = std::make_unique<apf::VtkhdfFile>(path);
     image = file->grid();
@@ -126,6 +126,7 @@ bool GridFile::periodic(int k, int iarg) const
 
 void GridFile::check_box(int iarg) const
 {
+  check_orthogonal(lmp, command + " file requires", iarg);
   for (int k = 0; k < lattice.dims; k++) {
     bool changes = false;
     for (const auto &fix : modify->get_fix_list())

@@ -1,9 +1,12 @@
 #include "particle_checks.h"
 
 #include "atom.h"
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "group.h"
 #include "modify.h"
+#include "neighbor.h"
 
 namespace LAMMPS_NS {
 
@@ -25,6 +28,22 @@ void check_diameters(LAMMPS *lmp, const std::string &who)
                       "{}: fix {} {} changes diameters within a run, which contacts do not see; "
                       "unfix it and change them between runs, as in: set group all diameter D",
                       who, fix->id, fix->style);
+}
+
+void check_cleared(LAMMPS *lmp, const std::string &who, const Fix *fix)
+{
+  const auto *neighbor = lmp->neighbor;
+  if (neighbor->includegroup && fix->igroup != neighbor->includegroup)
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "{}: its group must be {}, that of neigh_modify include, got {}: LAMMPS clears "
+                    "the forces of no other particles, which would add up from step to step",
+                    who, lmp->group->names[neighbor->includegroup], lmp->group->names[fix->igroup]);
+}
+
+void check_orthogonal(LAMMPS *lmp, const std::string &what, int iarg)
+{
+  if (lmp->domain->triclinic)
+    lmp->error->all(FLERR, iarg, "{} an orthogonal box, not a triclinic one", what);
 }
 
 int frozen_groups(LAMMPS *lmp)

@@ -1,4 +1,4 @@
-// What styles demand of the particles in a scene.
+// What styles demand of the particles in a scene, and of its box.
 
 #ifndef APF_PARTICLE_CHECKS_H
 #define APF_PARTICLE_CHECKS_H
@@ -6,6 +6,7 @@
 #include <string>
 
 namespace LAMMPS_NS {
+class Fix;
 class LAMMPS;
 
 // An error where particles are not spheres that turn.
@@ -16,6 +17,14 @@ void check_spheres(LAMMPS *lmp, const std::string &who, int iarg);
 // An error where a fix changes diameters within a run: who may touch, and by which law, is found
 // when lists are made.
 void check_diameters(LAMMPS *lmp, const std::string &who);
+
+// An error where LAMMPS clears the forces of some particles only, which neigh_modify include tells,
+// and the fix adds to those of others.
+void check_cleared(LAMMPS *lmp, const std::string &who, const Fix *fix);
+
+// An error in a triclinic box.
+//   what   begins the message, which goes on with " an orthogonal"
+void check_orthogonal(LAMMPS *lmp, const std::string &what, int iarg);
 
 // Bits of the groups that fix freeze holds: forces do not move their particles.
 int frozen_groups(LAMMPS *lmp);

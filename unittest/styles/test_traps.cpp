@@ -281,3 +281,92 @@ TEST(Traps, diameters_that_change_within_a_run)
     EXPECT_NEAR(-sim.value("fx[1]") / force, 1.0, 1e-9) << d;
   }
 }
+
+// A box that is made triclinic after the command.
+TEST(Traps, boxes_that_are_tilted_later)
+{
+  const auto error = [](const std::string &fix) {
+    Simulation sim;
+    sim.run(dust + "fix move all nve/sphere\ntimestep 1e-6\n" + fix);
+    EXPECT_EQ(sim.error_of("run 0\n"), "") << fix;
+    return sim.error_of("change_box all triclinic\nrun 0\n");
+  };
+  const std::string cells = "fix c all flow/concentration 16 16 16 cloud 2e-5\n";
+  EXPECT_TRUE(has(error(cells), "Fix flow/concentration needs an orthogonal box"));
+  EXPECT_TRUE(has(error("fix wind all flow/field uniform 1 0 0 density 1 viscosity 1\nfix in all "
+                        "inlet/flow x 0 wind number 1 diameter 1e-6 density 1 type 1 "
+                        "seed 7\n"),
+                  "Fix inlet/flow needs an orthogonal box"));
+  EXPECT_TRUE(has(error("fix drag all flow/force air drag stokes feedback 4 4 4\n"),
+                  "Fix flow/force feedback needs an orthogonal box"));
+  EXPECT_EQ(error("fix drag all flow/force air drag stokes\n"), "");
+}
+
+// A body of spheres of 10 and 5 um under its weight: the balance with the drag does not know of
+// what holds it together. Exactly weight over the sum of drags; far beyond tau the mean of tau by
+// mass takes the place of mass over drag, 33/27 = 1.222 of it.
+TEST(Traps, rigid_bodies_in_a_fluid)
+{
+  const double large = 2600.0 * 1e-10 / (18.0 * 1.8e-5);
+  std::string log;
+  const auto settles = [&](double h) {
+    Simulation sim;
+    sim.run(
+        "units si\natom_style hybrid sphere molecular\natom_modify map array\n"
+        "comm_modify vel yes cutoff 1e-4\nneighbor 1e-5 bin\n"
+        "region box block -1e-4 1e-4 -1e-4 1e-4 -1e-4 1e-4\ncreate_box 1 box\n"
+        "create_atoms 1 single 0 0 0\ncreate_atoms 1 single 0 7.5e-6 0\nset group all mol 1\n"
+        "set atom 1 diameter 1e-5 density 2600\nset atom 2 diameter 5e-6 density 2600\n"
+        "pair_style zero 1e-5 nocoeff\npair_coeff * *\nneigh_modify exclude molecule/intra all\n"
+        "fix air all flow/field uniform 0 0 0 density 1e-6 viscosity 1.8e-5\n"
+        "fix drag all flow/force air drag stokes torque yes gravity 0 -1e-4 0\n"
+        "fix body all rigid single torque 1 off off off\nthermo_style custom step\ntimestep " +
+        digits(h * large) + "\n");
+    log = log_of(sim, "run " + std::to_string(static_cast<int>(std::ceil(20.0 / h))) + "\n");
+    return -sim.value("vcm(all,y)") / (1e-4 * large * 9.0 / (8.0 * 1.5));
+  };
+  const std::string words = "particles of fix body rigid, whose bonds take no part";
+  EXPECT_NEAR(settles(0.01), 1.0, 0.004);    // 0.04 of tau of the smaller one
+  EXPECT_FALSE(has(log, words)) << log;
+  EXPECT_NEAR(settles(100.0), 33.0 / 27.0, 1e-2);
+  EXPECT_TRUE(has(log, words)) << log;
+}
+
+// LAMMPS clears the forces of the included group alone.
+TEST(Traps, forces_that_are_not_cleared)
+{
+  const std::string scene =
+      "atom_modify first some\nneigh_modify include some\ntimestep 1e-6\nfix move all nve/sphere\n";
+  const auto error = [&](const std::string &fix) {
+    Simulation sim;
+    sim.run(dust +
+            "create_atoms 1 single 1.5e-4 1e-4 1e-4\nset group all diameter 1e-6 density "
+            "2600\nchange_box all boundary p f p\ngroup some id 1\n" +
+            scene);
+    return sim.error_of(fix + "run 1\n");
+  };
+  const std::string words = ": its group must be some, that of neigh_modify include, got all";
+  const std::string wall = " wall/levelset plane y 0 NULL jkr 1e7 0.3 0.02\n";
+  EXPECT_TRUE(has(error(drag), "Fix flow/force drag" + words));
+  EXPECT_TRUE(has(error("fix w all" + wall), "Fix wall/levelset w" + words));
+  EXPECT_EQ(error("fix drag some flow/force air drag stokes\nfix w some" + wall), "");
+}
+
+// A minimiser has no step, and particles of rigid bodies have no fix nve/sphere/mts.
+TEST(Traps, advice_that_cannot_be_taken)
+{
+  const std::string too_large = "is too large for the", mts = "use fix nve/sphere/mts";
+  const auto log = [](const std::string &commands) {
+    Simulation sim;
+    sim.run(dust +
+            "create_atoms 1 single 1e-4 1.5e-4 1e-4\nset group all diameter 1e-6 density "
+            "2600\nthermo_style custom step\ntimestep 1e-6\n");
+    return log_of(sim, commands);
+  };
+  const std::string usual = log("fix move all nve/sphere\nrun 0\n"),
+                    rigid = log("fix body all rigid group 1 all\nrun 0\n"),
+                    still = log("minimize 0 0 1 1\n");
+  EXPECT_TRUE(has(usual, too_large) && has(usual, mts)) << usual;
+  EXPECT_TRUE(has(rigid, too_large) && !has(rigid, mts)) << rigid;
+  EXPECT_FALSE(has(still, too_large)) << still;
+}
