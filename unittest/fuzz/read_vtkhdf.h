@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -50,14 +51,14 @@ inline const herr_t left_open_at_exit = H5dont_atexit();
 // at, as it does with some damaged files, nobody can. A child tries each.
 inline bool one_can_be_closed()
 {
-  static ssize_t refused = 0;
+  static std::set<hid_t> tried;
   const ssize_t open = H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL);
-  if (open <= refused) return false;
-  refused = open;
+  if (open <= static_cast<ssize_t>(tried.size())) return false;
   std::vector<hid_t> handles(open);
   H5Fget_obj_ids(H5F_OBJ_ALL, H5F_OBJ_ALL, open, handles.data());
   constexpr int closed = 7;    // no status of a sanitizer
   return std::any_of(handles.begin(), handles.end(), [](hid_t handle) {
+    if (!tried.insert(handle).second) return false;
     const auto ended = in_child(
         [handle](int) {
           signal(SIGSEGV, SIG_DFL);    // no report
