@@ -15,12 +15,15 @@
 
 namespace apf {
 
-// standard deviation of one component of the random force or torque
+// Standard deviation of one component of the random force or torque; 0 in a step of no time, where
+// nothing moves.
 template <class Real>
 APF_INLINE Real thermal_amplitude(double kT, const Real &resistance, double time)
 {
   using std::sqrt;
-  return std::sqrt(2.0 * kT / time) * sqrt(resistance);    // kT may be 0, the root of Packs not
+  const double variance = 2.0 * kT / time;    // at unit resistance, the same for all particles
+  const double amplitude = std::isfinite(variance) ? std::sqrt(variance) : 0.0;
+  return amplitude * sqrt(resistance);    // kT may be 0, the root of Packs not
 }
 
 }    // namespace apf

@@ -291,6 +291,27 @@ TEST(FluidForces, spheres_at_rest_in_fluid_at_rest_feel_nothing)
   }
 }
 
+TEST(FluidForces, in_no_time_there_is_no_thermal_motion)
+{
+  for (const auto &build : fluid_forces_builds())
+    for (const double time : {0.0, 1e-310}) {    // 2 kT/time is beyond all numbers, too
+      Scene cold(true), warm(true);
+      for (auto *s : {&cold, &warm}) {
+        s->model.step_length = time;
+        std::fill_n(s->block.step, block_width, time);
+        s->model.brownian = s == &warm;
+        build.forces(s->model, s->fluid, s->block);
+      }
+      for (int l = 0; l < block_width; l++)
+        for (int c = 0; c < 3; c++) {
+          EXPECT_EQ(warm.block.force[BROWNIAN][c][l], 0.0);
+          EXPECT_EQ(warm.block.given[c][l], cold.block.given[c][l]);
+          EXPECT_EQ(warm.block.torque[c][l], cold.block.torque[c][l]);
+          EXPECT_TRUE(std::isfinite(warm.block.given[c][l]));
+        }
+    }
+}
+
 TEST(FluidForces, all_builds_agree)
 {
   ASSERT_GE(fluid_forces_builds().size(), 1u);

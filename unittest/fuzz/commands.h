@@ -200,8 +200,9 @@ inline const Command commands[] = {
     {pair, "fix nve all nve/sphere/mts collision auto lookahead no fluid 3", 4},
     {nve + pair + floor_below, "compute dust all wall/deposit floor zone lo", 3},
     {nve, "pair_style granular/adhesive", 1, "pair_coeff * * jkr 1e6 0.3 10"},
-    {nve + pair + air + floor_below + "fix drag all flow/force air drag stokes\n", "timestep 1e-5",
-     1, "", false},
+    {nve + pair + air + floor_below +
+         "fix drag all flow/force air drag stokes brownian 300 12345\n",
+     "timestep 1e-5", 1, "", false},
     {pair + floor_below + "fix nve all nve/sphere/mts collision auto\n", "timestep 1e-5", 1, "",
      false},
     {nve + pair + floor_below, "neighbor 0.5 bin", 1, "", false, 20.0},

@@ -15,13 +15,18 @@ namespace {
 
 const std::string wall = "fix wall all wall/levelset plane x 0 NULL" + jkr + all_friction + "\n";
 // with an inlet through which no whole sphere comes in any of these tests
-const std::string everything = wall +
-    "fix air all flow/field shear x y 1.0 0.0 density 1e-3 viscosity 1e-3\n"
-    "fix in all inlet/flow x 4.0 air concentration 1e-6 diameter 1.0 density 1.0 type 1 seed 7\n"
-    "fix c all flow/concentration 8 8 8 cloud 1.0 method direct\n"
-    "fix drag all flow/force air drag stokes torque yes concentration c feedback yes\n"
-    "compute clumps all aggregate/contact\n"
-    "thermo_style custom step ke f_wall[7] f_in[1] f_c[1] f_drag[25] c_clumps[1] c_clumps[2]\n";
+std::string everything_with(const std::string &keywords)    // of fix flow/force
+{
+  return wall +
+      "fix air all flow/field shear x y 1.0 0.0 density 1e-3 viscosity 1e-3\n"
+      "fix in all inlet/flow x 4.0 air concentration 1e-6 diameter 1.0 density 1.0 type 1 seed 7\n"
+      "fix c all flow/concentration 8 8 8 cloud 1.0 method direct\n"
+      "fix drag all flow/force air drag stokes torque yes concentration c feedback yes " +
+      keywords +
+      "\ncompute clumps all aggregate/contact\n"
+      "thermo_style custom step ke f_wall[7] f_in[1] f_c[1] f_drag[25] c_clumps[1] c_clumps[2]\n";
+}
+const std::string everything = everything_with("");
 
 const std::vector<std::string> integrators = {
     "fix nve all nve/sphere\n", "fix nve all nve/sphere\nrun_style respa 2 10 pair 1\n", mts(10),
@@ -62,7 +67,7 @@ TEST(RanksFaults, step_of_zero_moves_nothing)
     Simulation sim;
     build(sim, {{0.495, 4.0, 4.0}, {1.48, 4.1, 4.0}}, beside_a_wall());
     set_motion(sim, 2, {1.0, 2.0, 3.0}, {3.0, 2.0, 1.0});
-    sim.run(everything + integrator + "timestep 0.0\nrun 0");
+    sim.run(everything_with("brownian 0.5 4711") + integrator + "timestep 0.0\nrun 0");
     auto before = state_of(sim);
     sim.run("run 1");    // before it r-RESPA shows forces of its outer level alone
     before.f = gather(sim, "f");
