@@ -19,10 +19,10 @@ struct Range {
   double low = -INFINITY, high = INFINITY;
   bool with_low = true;
 
-  static Range above(double low, double high = INFINITY) { return {low, high, false}; }
-  static Range from(double low, double high = INFINITY) { return {low, high, true}; }
+  static constexpr Range above(double low, double high = INFINITY) { return {low, high, false}; }
+  static constexpr Range from(double low, double high = INFINITY) { return {low, high, true}; }
 
-  bool holds(double x) const { return (with_low ? x >= low : x > low) && x <= high; }
+  constexpr bool holds(double x) const { return (with_low ? x >= low : x > low) && x <= high; }
   std::string words() const;    // "> 0", ">= 0" or "in (0, 1]"; empty without bounds
 };
 

@@ -18,6 +18,28 @@ namespace {
 
 constexpr double rounding = 1.0e-12;
 
+// What the numbers of a law may be, in scripts and in restart files.
+namespace range {
+  constexpr Range modulus = Range::above(0.0);
+  constexpr Range poisson = Range::above(-1.0, 0.5);
+  constexpr Range surface_energy = Range::from(0.0);
+  constexpr Range damping = Range::from(0.0);
+  constexpr Range friction = Range::from(0.0);
+  constexpr Range rolling_angle = Range::from(0.0, 1.0);
+  constexpr Range rolling_damping = Range::from(0.0);
+  constexpr Range share = Range::above(0.0, 1.0);    // of stiffness, volume, liquid
+  constexpr Range share_or_none = Range::from(0.0, 1.0);
+  constexpr Range tension = Range::above(0.0);
+  constexpr Range contact_angle = Range::from(0.0, 89.0);    // [degrees]
+  constexpr Range viscosity = Range::from(0.0);
+  constexpr Range least_gap = Range::from(1e-12, 1.0);
+}    // namespace range
+
+double radians(double degrees)
+{
+  return degrees * apf::pi / 180.0;
+}
+
 // Reads words one after another; errors name command, keyword, value and range.
 class Words {
  public:
@@ -83,7 +105,7 @@ void parse_damping(Words &words, apf::ContactModel &model)
           words.number("damping tsuji restitution", Range::above(0.0, 1.0)));
       break;
     case 1:
-      model.alpha = words.number("damping alpha", Range::from(0.0));
+      model.alpha = words.number("damping alpha", range::damping);
       break;
     default:
       model.alpha = 0.0;
@@ -98,21 +120,21 @@ bool parse_keyword(Words &words, apf::ContactModel &model)
     parse_damping(words, model);
   } else if (words.is("sliding")) {
     words.skip();
-    model.mu = words.number("sliding mu", Range::from(0.0));
+    model.mu = words.number("sliding mu", range::friction);
   } else if (words.is("twisting")) {
     words.skip();
     model.twisting = words.yes("twisting");
   } else if (words.is("rolling")) {
     words.skip();
-    model.theta_crit = words.number("rolling theta_crit", Range::from(0.0, 1.0));
-    if (words.is_number()) model.zeta = words.number("rolling zeta", Range::from(0.0));
+    model.theta_crit = words.number("rolling theta_crit", range::rolling_angle);
+    if (words.is_number()) model.zeta = words.number("rolling zeta", range::rolling_damping);
   } else if (words.is("break")) {
     words.skip();
     constexpr apf::Break ends[] = {apf::Break::displacement, apf::Break::force, apf::Break::touch};
     model.neck_end = ends[words.choice("break", {"displacement", "force", "touch"})];
   } else if (words.is("scale_stiffness")) {
     words.skip();
-    model.stiffness_scale = words.number("scale_stiffness", Range::above(0.0, 1.0));
+    model.stiffness_scale = words.number("scale_stiffness", range::share);
   } else {
     return false;
   }
@@ -121,13 +143,12 @@ bool parse_keyword(Words &words, apf::ContactModel &model)
 
 void parse_bridge(Words &words, apf::BridgeModel &bridge)
 {
-  bridge.volume_ratio = words.number("bridge volume ratio l", Range::above(0.0, 1.0));
-  bridge.sigma = words.number("bridge surface tension sigma", Range::above(0.0));
-  bridge.theta =
-      words.number("bridge contact angle theta", Range::from(0.0, 89.0)) * apf::pi / 180.0;
-  bridge.mu = words.number("bridge viscosity mu", Range::from(0.0));
+  bridge.volume_ratio = words.number("bridge volume ratio l", range::share);
+  bridge.sigma = words.number("bridge surface tension sigma", range::tension);
+  bridge.theta = radians(words.number("bridge contact angle theta", range::contact_angle));
+  bridge.mu = words.number("bridge viscosity mu", range::viscosity);
   if (words.is_number())
-    bridge.roughness = words.number("bridge least gap hmin over R", Range::from(1e-12, 1.0));
+    bridge.roughness = words.number("bridge least gap hmin over R", range::least_gap);
 }
 
 double parse_wet_gamma(Words &words)
@@ -177,7 +198,7 @@ bool parse_liquid(Words &words, apf::BridgeModel &bridge)
     bridge.wet_share = parse_wet_gamma(words);
   } else if (words.is("inventory")) {
     words.skip();
-    bridge.intake = words.number("inventory share", Range::above(0.0, 1.0));
+    bridge.intake = words.number("inventory share", range::share);
     if (words.is("even") || words.is("origin"))
       bridge.sharing = words.choice("inventory split", {"even", "origin"}) == 0
           ? apf::Sharing::even
@@ -188,30 +209,48 @@ bool parse_liquid(Words &words, apf::BridgeModel &bridge)
   return true;
 }
 
-void check_bridge(const Words &words, const apf::BridgeModel &bridge)
+// what is wrong with the numbers together; empty if nothing is
+std::string contradiction(const apf::BridgeModel &bridge)
 {
   const apf::BridgeModel none;
   if (!bridge.present()) {
     const bool named = bridge.forming != none.forming || bridge.capillary != none.capillary ||
         bridge.tangential || bridge.wet_share != 1.0 || bridge.inventory();
-    if (named)
-      words.refuse("keywords form, capillary, tangential, wet_gamma and inventory need keyword "
-                   "bridge l sigma theta mu");
-    return;
+    return named ? "keywords form, capillary, tangential, wet_gamma and inventory need keyword "
+                   "bridge l sigma theta mu"
+                 : "";
   }
-  if (bridge.capillary != apf::Capillary::willett) return;
+  if (bridge.capillary != apf::Capillary::willett) return "";
   // of two equal spheres, the largest there is
   const double volume = bridge.largest_volume(1.0);
   if (volume > apf::largest_willett)
-    words.refuse(fmt::format("capillary willett is fitted for bridge volumes up to {} r^3 between "
-                             "equal spheres: bridge l must be <= {:.4g}, got {:.4g}",
-                             apf::largest_willett,
-                             bridge.volume_ratio * apf::largest_willett / volume,
-                             bridge.volume_ratio));
+    return fmt::format("capillary willett is fitted for bridge volumes up to {} r^3 between "
+                       "equal spheres: bridge l must be <= {:.4g}, got {:.4g}",
+                       apf::largest_willett, bridge.volume_ratio * apf::largest_willett / volume,
+                       bridge.volume_ratio);
   if (bridge.theta > apf::largest_willett_angle)
-    words.refuse(fmt::format("capillary willett is fitted for contact angles up to 50 degrees: "
-                             "bridge theta must be <= 50, got {:.4g}",
-                             bridge.theta * 180.0 / apf::pi));
+    return fmt::format("capillary willett is fitted for contact angles up to 50 degrees: "
+                       "bridge theta must be <= 50, got {:.4g}",
+                       bridge.theta * 180.0 / apf::pi);
+  return "";
+}
+
+std::string contradiction(const ContactCoeff &coeff)
+{
+  const auto of_liquid = contradiction(coeff.bridge);
+  if (!of_liquid.empty()) return of_liquid;
+  if (coeff.model.twisting && !coeff.model.sliding())
+    return "twisting yes needs sliding mu > 0, which limits its torque";
+  if (coeff.model.rolling() && !coeff.model.adhesive())
+    return "rolling needs adhesion, surface energy gamma > 0: its moment is 4 F_C xi";
+  return "";
+}
+
+apf::Interface with_itself(const ContactCoeff &coeff)
+{
+  auto surface = apf::interface(coeff.material, coeff.material);
+  surface.gamma *= coeff.bridge.wet_share;
+  return surface;
 }
 
 }    // namespace
@@ -234,9 +273,9 @@ ContactCoeff LAMMPS_NS::parse_contact(LAMMPS *lmp, const char *command, int narg
   words.need(1, "contact law");
   if (words.is("jkr")) {
     words.skip();
-    coeff.material.E = words.number("Young's modulus E", Range::above(0.0));
-    coeff.material.nu = words.number("Poisson's ratio nu", Range::above(-1.0, 0.5));
-    coeff.material.gamma = words.number("surface energy gamma", Range::from(0.0));
+    coeff.material.E = words.number("Young's modulus E", range::modulus);
+    coeff.material.nu = words.number("Poisson's ratio nu", range::poisson);
+    coeff.material.gamma = words.number("surface energy gamma", range::surface_energy);
   } else if (words.is("material")) {
     words.skip();
     words.need(2, "material");
@@ -254,13 +293,9 @@ ContactCoeff LAMMPS_NS::parse_contact(LAMMPS *lmp, const char *command, int narg
     known = parse_keyword(words, coeff.model) || parse_liquid(words, coeff.bridge);
   }
 
-  check_bridge(words, coeff.bridge);
-  coeff.model.surface = apf::interface(coeff.material, coeff.material);
-  coeff.model.surface.gamma *= coeff.bridge.wet_share;
-  if (coeff.model.twisting && !coeff.model.sliding())
-    words.refuse("twisting yes needs sliding mu > 0, which limits its torque");
-  if (coeff.model.rolling() && !coeff.model.adhesive())
-    words.refuse("rolling needs adhesion, surface energy gamma > 0: its moment is 4 F_C xi");
+  coeff.model.surface = with_itself(coeff);
+  const auto wrong = contradiction(coeff);
+  if (!wrong.empty()) words.refuse(wrong);
   return coeff;
 }
 
@@ -282,6 +317,53 @@ ContactCoeff ContactCoeff::mixed(const ContactCoeff &i, const ContactCoeff &j)
   c.model.neck_end = std::max(i.model.neck_end, j.model.neck_end);
   c.model.stiffness_scale = std::sqrt(i.model.stiffness_scale * j.model.stiffness_scale);
   return c;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool ContactCoeff::sound() const
+{
+  bool all = true;
+  auto number = [&](double x, const Range &may_be) {
+    all = all && std::isfinite(x) && may_be.holds(x);
+  };
+  auto one_of = [&](auto choice, int n) {
+    all = all && static_cast<int>(choice) >= 0 && static_cast<int>(choice) < n;
+  };
+  auto yes_or_no = [&](const bool &choice) {
+    unsigned char byte;
+    std::memcpy(&byte, &choice, sizeof(byte));
+    all = all && byte <= 1;
+  };
+  auto same = [&](double x, double y) {
+    all = all && std::fabs(x - y) <= rounding * y;
+  };
+  number(material.E, range::modulus);
+  number(material.nu, range::poisson);
+  number(material.gamma, range::surface_energy);
+  number(model.alpha, range::damping);
+  number(model.mu, range::friction);
+  number(model.theta_crit, range::rolling_angle);
+  number(model.zeta, range::rolling_damping);
+  number(model.stiffness_scale, range::share);
+  yes_or_no(model.twisting);
+  one_of(model.neck_end, 3);
+  number(bridge.volume_ratio, range::share_or_none);
+  number(bridge.sigma, bridge.present() ? range::tension : Range());
+  number(bridge.theta, Range::from(0.0, radians(range::contact_angle.high)));
+  number(bridge.mu, range::viscosity);
+  number(bridge.roughness, range::least_gap);
+  number(bridge.intake, range::share_or_none);
+  number(bridge.wet_share, range::share_or_none);
+  yes_or_no(bridge.tangential);
+  one_of(bridge.capillary, 2);
+  one_of(bridge.forming, 2);
+  one_of(bridge.sharing, 2);
+  const auto surface = with_itself(*this);
+  same(model.surface.E, surface.E);
+  same(model.surface.G, surface.G);
+  same(model.surface.gamma, surface.gamma);
+  return all && contradiction(*this).empty();
 }
 
 /* ---------------------------------------------------------------------- */

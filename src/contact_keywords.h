@@ -26,6 +26,9 @@ struct ContactCoeff {
   // contact angle, of whose cosine the mean is taken; a sub-model acts if both have it.
   static ContactCoeff mixed(const ContactCoeff &i, const ContactCoeff &j);
 
+  // false for numbers that no words give: a restart file is damaged
+  bool sound() const;
+
   // the words again, for data files
   std::string words() const;
 };

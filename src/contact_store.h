@@ -97,14 +97,14 @@ class ContactStore {
     return static_cast<int>(buf - start);
   }
 
-  // number of doubles that unpack will read
-  static double packed_size(const double *buf)
+  // an error where numbers of a restart file cannot be those that pack writes
+  static void check(RestartNumbers &packed)
   {
-    const double wet = *buf >= with_liquid, what = *buf - wet * with_liquid,
-                 bridges = std::floor(what / per_bridge);
-    return 2 + wet +
-        (what - bridges * per_bridge) * PartnerRecords<apf::ContactHistory>::record_size +
-        bridges * PartnerRecords<apf::BridgeMemory>::record_size;
+    const auto what = static_cast<int64_t>(packed.whole(0.0, 2.0 * with_liquid));
+    packed.skip_id();
+    if (what >= with_liquid && std::isinf(*packed.bits(1))) packed.damaged();
+    PartnerRecords<apf::ContactHistory>::check(what % with_liquid % per_bridge, packed);
+    PartnerRecords<apf::BridgeMemory>::check(what % with_liquid / per_bridge, packed);
   }
 
   // appends to what atom i has; returns the number of doubles read

@@ -207,7 +207,7 @@ void FixContacts::write_restart(FILE *fp)
 void FixContacts::restart(char *buf)
 {
   RestartState state(lmp, this, buf);
-  taken.behind = state.next();
+  taken.behind = state.next(Range::from(0.0));
   set_global_state(state);
   state.end();
 }
@@ -243,6 +243,11 @@ int FixContacts::pack_exchange(int i, double *buf)
 
 int FixContacts::unpack_exchange(int i, double *buf)
 {
+  return unpack(i, buf);
+}
+
+int FixContacts::unpack(int i, const double *buf)
+{
   store.insert(i);
   const int m = velocities.unpack(i, buf);
   const int n = store.unpack(i, buf + m);
@@ -258,17 +263,14 @@ int FixContacts::pack_restart(int i, double *buf)
 
 void FixContacts::unpack_restart(int i, int nth)
 {
-  double *extra = atom->extra[i];
-  int m = 0;
-  for (int n = 0; n < nth; n++) m += static_cast<int>(extra[m]);
-  const double size =
-      1 + UsedVelocity::size + ContactStore::packed_size(extra + m + 1 + UsedVelocity::size);
-  if (extra[m] != size)
-    error->one(FLERR, Error::NOLASTLINE,
-               "Fix {} {}: its part of the restart file is damaged: atom {} has {:.0f} numbers, "
-               "{:.0f} are expected",
-               style, id, atom->tag[i], extra[m], size);
-  unpack_exchange(i, extra + m + 1);
+  RestartNumbers row(lmp, this, atom->extra[i], atom->nextra_store, false);
+  for (int n = 0; n < nth; n++) row.part();    // of other fixes
+  auto mine = row.part();
+  const double *const packed = mine.data();
+  UsedVelocity::check(mine);
+  ContactStore::check(mine);
+  mine.end();
+  unpack(i, packed);
 }
 
 int FixContacts::size_restart(int i)

@@ -133,6 +133,7 @@ class FixContacts : public Fix {
   bool stored = true;           // no forces since contacts were stored
   apf::ContactTimes taken{};    // of the last forces
 
+  int unpack(int i, const double *buf);
   virtual void share_velocities() {}    // with ghosts, where these have contacts
 };
 

@@ -269,8 +269,9 @@ void FixFlowField::restart(char *buffer)
     if (!s.variable.empty()) s.value = value;
   }
   for (auto &s : speed) s.rate = state.next();
-  evaluated_at = state.next();
-  evaluated = static_cast<bigint>(state.next());
+  evaluated_at = *state.bits(1);
+  evaluated = static_cast<bigint>(state.whole(never, most_counted));
+  if (!std::isfinite(evaluated_at) && evaluated != never) state.damaged();
   state.end();
   set_speed(flow, &Speed::value);
   set_speed(change, &Speed::rate);

@@ -360,8 +360,24 @@ void FixInletFlow::write_restart(FILE *fp)
 void FixInletFlow::restart(char *buf)
 {
   RestartState saved(lmp, this, buf);
-  const size_t count = sizeof(State) / sizeof(double);
-  std::copy_n(saved.next(count), count, reinterpret_cast<double *>(&state));
+  state.owed = saved.next(Range::from(0.0));
+  state.next = saved.next(Range::above(0.0));
+  if (state.next < smallest() || state.next > largest())
+    saved.refuse("the next particle has none of the diameters of this command",
+                 "give the same, or the fix another ID to begin anew");
+  for (auto *count : {&state.inserted, &state.refused}) *count = saved.whole(0.0, most_counted);
+  for (auto *sum : {&state.mass, &state.volume, &state.asked, &state.elapsed})
+    *sum = saved.next(Range::from(0.0));
+  state.left = saved.whole(0.0, most_counted);
+  state.left_mass = saved.next(Range::from(0.0));
+  state.newest = saved.whole(0.0, std::min<double>(MAXTAGINT, most_counted));
+  // as RanMars has them: what numbers are made of, two places among these, three more
+  constexpr int n_places = 97;
+  const auto share = Range::from(0.0, std::nextafter(1.0, 0.0));
+  for (int k = 0; k < 103; k++) {
+    const bool is_place = k == n_places + 1 || k == n_places + 2;
+    state.random[k] = is_place ? saved.whole(1.0, n_places) : saved.next(share);
+  }
   saved.end();
   random->set_state(state.random);
 }

@@ -148,10 +148,10 @@ void FixNVESphereMTS::write_restart(FILE *fp)
 void FixNVESphereMTS::restart(char *buf)
 {
   RestartState state(lmp, this, buf);
-  const double steps = state.next();
+  const double steps = state.whole(1.0, too_many);
   if (!fixed_steps) n_collision = static_cast<int>(steps);
-  all_collision_steps = static_cast<bigint>(state.next());
-  late_before_restart = static_cast<bigint>(state.next());
+  all_collision_steps = static_cast<bigint>(state.whole(0.0, most_counted));
+  late_before_restart = static_cast<bigint>(state.whole(0.0, most_counted));
   state.end();
 }
 

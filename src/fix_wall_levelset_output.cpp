@@ -98,14 +98,13 @@ std::vector<double> FixWallLevelset::global_state() const
 
 void FixWallLevelset::set_global_state(RestartState &state)
 {
-  const double *counts = state.next(2);
-  if (comm->me == 0) {    // they are sums over ranks
-    captured = counts[0];
-    detached = counts[1];
+  for (auto *count : {&captured, &detached}) {
+    const double saved = state.whole(0.0, most_counted);
+    if (comm->me == 0) *count = saved;    // they are sums over ranks
   }
-  const bool moved = state.next() != 0.0;
+  const bool moved = state.yes();
   const double *pose = state.next(apf::WallPose::state_size);
-  if (moved && motion.pose.moves) motion.pose.read(pose);
+  if (moved && motion.pose.moves && !motion.pose.read(pose)) state.damaged();
   if (moved && !motion.pose.moves && comm->me == 0)
     error->warning(FLERR,
                    "{} {}: the wall of the restart file moves, this one has no keyword move and "

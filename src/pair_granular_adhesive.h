@@ -78,6 +78,7 @@ class PairGranularAdhesive : public Pair {
   bool is_closed(int candidate) const { return candidates.closed[candidate]; }
 
  private:
+  [[noreturn]] void refuse_damaged(int i, int j);    // coefficients of a restart file
   void parse_types(const char *word, int iarg, int &lo, int &hi) const;
   apf::Candidates candidates;    // pairs of the neighbour list
   apf::ContactList contacts;

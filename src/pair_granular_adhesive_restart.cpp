@@ -38,11 +38,21 @@ void PairGranularAdhesive::read_restart(FILE *fp)
       auto &coeff = coefficients[i][j];
       if (comm->me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
       MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      if (setflag[i][j] != 0 && setflag[i][j] != 1) refuse_damaged(i, j);
       if (!setflag[i][j]) continue;
       if (comm->me == 0) utils::sfread(FLERR, &coeff, sizeof(coeff), 1, fp, nullptr, error);
       MPI_Bcast(&coeff, sizeof(coeff), MPI_BYTE, 0, world);
+      if (!coeff.sound()) refuse_damaged(i, j);
       coefficients[j][i] = coeff;
     }
+}
+
+void PairGranularAdhesive::refuse_damaged(int i, int j)
+{
+  error->all(FLERR, Error::NOLASTLINE,
+             "Pair granular/adhesive: its part of the restart file cannot be used: it is damaged, "
+             "coefficients of types {} {} are none that pair_coeff gives; use another file",
+             i, j);
 }
 
 /* ---------------------------------------------------------------------- */

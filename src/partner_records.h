@@ -8,16 +8,18 @@
 #define APF_PARTNER_RECORDS_H
 
 #include "lmptype.h"
+#include "restart_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-// Memory is made of doubles alone, Memory::size of them. memory.swapped(planar) is what the partner
-// sees of it.
+// Memory is made of doubles alone, Memory::size of them: the first Memory::finite are finite, the
+// others may be infinite. memory.swapped(planar) is what the partner sees of it.
 template <class Memory> class PartnerRecords {
  public:
   static constexpr int record_size = 1 + Memory::size;    // doubles
@@ -131,6 +133,17 @@ template <class Memory> class PartnerRecords {
   {
     for (int k = 0; k < n; k++, buf += record_size) unpack_record(i, buf);
     return buf;
+  }
+
+  // an error where numbers of a restart file cannot be those that pack writes of n records
+  static void check(int64_t n, RestartNumbers &packed)
+  {
+    for (; n > 0; n--) {
+      packed.skip_id();
+      packed.next(Memory::finite);
+      for (int k = Memory::finite; k < Memory::size; k++)
+        if (std::isnan(*packed.bits(1))) packed.damaged();
+    }
   }
 
   double memory_usage() const    // [bytes]

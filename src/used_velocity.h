@@ -9,6 +9,7 @@
 #include "atom.h"
 #include "atom_rows.h"
 #include "contact/bodies.h"
+#include "restart_state.h"
 
 #include <array>
 #include <cstdint>
@@ -102,6 +103,13 @@ class UsedVelocity {
     if (end[i] != unknown) make_rows();
     if (bodies.size()) bodies.set_motion(i, buf + 4, buf + 7);
     return size;
+  }
+
+  // an error where numbers of a restart file cannot be those that pack writes
+  static void check(RestartNumbers &packed)
+  {
+    packed.bits(1);    // compared only
+    packed.next(size - 1);
   }
 
   double memory_usage() const    // [bytes]

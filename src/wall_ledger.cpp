@@ -291,10 +291,11 @@ void WallLedger::set_state(RestartState &state, const std::string &of_fix)
         "{}: the zones in the restart file are {}, those of the command are {}; give the same, "
         "or the fix another ID to count anew",
         of_fix, saved, places());
-  for (auto *numbers : {&begun, &ended, &liquid}) {
-    const double *saved_numbers = state.next(numbers->size());
-    // they are sums over ranks
-    if (comm->me == 0) std::copy_n(saved_numbers, numbers->size(), numbers->begin());
-  }
-  has_films = state.next() != 0.0;
+  for (auto *numbers : {&begun, &ended, &liquid})
+    for (auto &number : *numbers) {
+      const bool counts = numbers != &liquid;
+      const double saved_number = counts ? state.whole(0.0, most_counted) : state.next();
+      if (comm->me == 0) number = saved_number;    // they are sums over ranks
+    }
+  has_films = state.yes();
 }

@@ -21,7 +21,7 @@ struct BridgeMemory {
   double volume_i = 0.0, volume_j = 0.0;    // liquid from either body                  [volume]
   double formed = INFINITY;    // gap at which it formed, in the step that saw that; else infinite
 
-  static constexpr int size = 3;
+  static constexpr int size = 3, finite = 2;
 
   double volume() const { return volume_i + volume_j; }
   // the same bridge seen from j

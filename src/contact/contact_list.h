@@ -26,7 +26,7 @@ struct ContactHistory {
   double twisting = 0.0;                  // [rad]
   double normal[3] = {0.0, 0.0, 0.0};     // unit normal from i to j at the last update; 0 if new
 
-  static constexpr int size = 10;
+  static constexpr int size = 10, finite = 10;
 
   // the same contact seen from j; in the plane the tangent turns with the normal
   ContactHistory swapped(bool planar) const

@@ -72,12 +72,18 @@ class WallPose {
       *state++ = v.z;
     }
   }
-  void read(const double *state)
+  // false if they are none of a rigid body
+  bool read(const double *state)
   {
     for (Vec3 *v : {&centre, &axes[0], &axes[1], &axes[2], &last_velocity, &last_spin}) {
       *v = {state[0], state[1], state[2]};
       state += 3;
     }
+    constexpr double rounding = 1e-12;
+    const Vec3 third = cross(axes[0], axes[1]) - axes[2];
+    return std::fabs(norm2(axes[0]) - 1.0) < rounding &&
+        std::fabs(norm2(axes[1]) - 1.0) < rounding && std::fabs(dot(axes[0], axes[1])) < rounding &&
+        norm2(third) < rounding * rounding;
   }
 
  private:
