@@ -237,7 +237,7 @@ std::string contradiction(const apf::BridgeModel &bridge)
 
 std::string contradiction(const ContactCoeff &coeff)
 {
-  const auto of_liquid = contradiction(coeff.bridge);
+  auto of_liquid = contradiction(coeff.bridge);
   if (!of_liquid.empty()) return of_liquid;
   if (coeff.model.twisting && !coeff.model.sliding())
     return "twisting yes needs sliding mu > 0, which limits its torque";
