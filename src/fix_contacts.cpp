@@ -16,7 +16,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixContacts::FixContacts(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), velocities(domain->dimension == 2)
+    Fix(lmp, narg, arg), velocities(domain->dimension == 2), guard(lmp)
 {
   restart_peratom = 1;
   restart_global = 1;    // write_restart() also brings the per-atom data up to date

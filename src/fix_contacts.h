@@ -8,6 +8,7 @@
 #include "contact/islands.h"
 #include "contact/jump.h"
 #include "contact_store.h"
+#include "run_guard.h"
 #include "timestep/look_ahead.h"
 #include "used_velocity.h"
 
@@ -24,6 +25,7 @@ class FixContacts : public Fix {
   ~FixContacts() override;
   int setmask() override;
   void init() override;
+  void setup(int) override { guard.prepared(); }
   void pre_exchange() override;
   void min_pre_exchange() override { pre_exchange(); }
   void post_neighbor() override { order.note(atom); }
@@ -121,6 +123,7 @@ class FixContacts : public Fix {
   void note_touch(const apf::Approach &, double radius_sum, const apf::StiffestMode &,
                   bool foreseen);
 
+  RunGuard guard;
   std::vector<FixContacts *> keepers;    // all fixes that own contacts, this one included
   bigint changes = 0;                    // contacts made and ended so far
 

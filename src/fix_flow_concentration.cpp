@@ -28,7 +28,7 @@ static constexpr double widest_cloud = 10.0;    // over the box; its margins are
 /* ---------------------------------------------------------------------- */
 
 FixFlowConcentration::FixFlowConcentration(LAMMPS *lmp, int narg, char **arg) :
-    FixPerGrid(lmp, narg, arg), grid(lmp, this, parse_cells(narg, arg), 1),
+    FixPerGrid(lmp, narg, arg), guard(lmp), grid(lmp, this, parse_cells(narg, arg), 1),
     open(lmp, this, grid.n, 1)
 {
   check_spheres(lmp, command, 2);
@@ -212,6 +212,7 @@ void FixFlowConcentration::setup_pre_force_respa(int vflag, int ilevel)
 
 void FixFlowConcentration::pre_force(int /*vflag*/)
 {
+  guard.require(this);
   if (box_changes()) set_up();
   if (box_changes() || update->ntimestep % every == 0) renew();
 }

@@ -12,6 +12,7 @@ FixStyle(flow/concentration,FixFlowConcentration);
 #include "cloud_convolution.h"
 #include "cloud_sum.h"
 #include "fix_per_grid.h"
+#include "run_guard.h"
 
 #include "flow/fluid_block.h"
 
@@ -26,6 +27,7 @@ class FixFlowConcentration : public FixPerGrid {
   FixFlowConcentration(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
+  void setup(int) override { guard.prepared(); }
   void setup_pre_force(int) override;
   void setup_pre_force_respa(int, int) override;
   void pre_force(int) override;
@@ -39,6 +41,7 @@ class FixFlowConcentration : public FixPerGrid {
   const std::array<int, 3> &cells() const { return grid.n; }
 
  private:
+  RunGuard guard;
   CellGrid grid;          // concentration                                                 [-]
   CellGrid open;          // 1 where there is fluid, else 0; used if `walled`
   double radius = 0.0;    // R of a cloud                                            [length]

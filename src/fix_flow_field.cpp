@@ -21,7 +21,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixFlowField::FixFlowField(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), density(0.0), viscosity(0.0), varies(false), evaluated(never),
+    Fix(lmp, narg, arg), density(0.0), viscosity(0.0), guard(lmp), varies(false), evaluated(never),
     evaluated_at(std::numeric_limits<double>::quiet_NaN())
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix flow/field", error);
@@ -63,7 +63,7 @@ int FixFlowField::setmask()
 
 /* ---------------------------------------------------------------------- */
 
-void FixFlowField::init()
+void FixFlowField::find_variables()
 {
   for (auto &one : speed) {
     if (one.variable.empty()) continue;
@@ -75,6 +75,11 @@ void FixFlowField::init()
       error->all(FLERR, Error::NOLASTLINE, "Fix flow/field {}: variable {} must be of style equal",
                  id, one.variable);
   }
+}
+
+void FixFlowField::init()
+{
+  find_variables();
   if (grid) grid->check_box(Error::NOLASTLINE);
 
   every = 1;
@@ -90,6 +95,7 @@ void FixFlowField::init()
 
 void FixFlowField::setup(int /*vflag*/)
 {
+  guard.prepared();
   const bool has_walls = has_distance() && !modify->get_fix_by_style("^flow/concentration").empty();
   if (!taken && !has_walls && !warned) {
     warned = true;
@@ -128,6 +134,7 @@ void FixFlowField::pre_force_respa(int /*vflag*/, int /*ilevel*/, int /*iloop*/)
 
 void FixFlowField::evaluate()
 {
+  guard.require(this);
   const bigint now = update->ntimestep;
   if (evaluated == now && !begins) return;
   const bool begun = begins;    // a run: the script may have changed variables
@@ -152,6 +159,7 @@ void FixFlowField::evaluate_variables()
 {
   const double interval = time() - evaluated_at;
   evaluated_at = time();
+  find_variables();    // a run without setup finds those that the script has made since
   modify->clearstep_compute();
   for (auto &one : speed) {
     if (one.index < 0) continue;

@@ -13,6 +13,7 @@ FixStyle(flow/field,FixFlowField);
 
 #include "flow/flow_field.h"
 #include "flow/grid_flow.h"
+#include "run_guard.h"
 
 #include <memory>
 #include <string>
@@ -71,6 +72,7 @@ class FixFlowField : public Fix {
     int index = -1;
   };
 
+  RunGuard guard;
   apf::FlowField flow, change;             // and du/dt: the flow whose speeds are the rates
   std::unique_ptr<class FlowGrid> grid;    // where the flow is that of a file,
   apf::GridFlow gridded;                   // as it is now
@@ -97,6 +99,7 @@ class FixFlowField : public Fix {
   Speed parse_speed(int iarg, char **arg, const char *what);
 
   double time() const;
+  void find_variables();
   void evaluate();
   void evaluate_variables();
   void set_speed(apf::FlowField &, double Speed::*) const;

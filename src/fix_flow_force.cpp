@@ -32,8 +32,8 @@ void add(double *a, const apf::Vec3 &b)
 /* ---------------------------------------------------------------------- */
 
 FixFlowForce::FixFlowForce(LAMMPS *lmp, int narg, char **arg) :
-    FixPerGrid(lmp, narg, arg), block(std::make_unique<Block>()), fluid_forces(apf::fluid_forces()),
-    rows(apf::lane_rows()), parts{}, total_all{}
+    FixPerGrid(lmp, narg, arg), guard(lmp), block(std::make_unique<Block>()),
+    fluid_forces(apf::fluid_forces()), rows(apf::lane_rows()), parts{}, total_all{}
 {
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix flow/force", error);
   check_spheres(lmp, command, 2);
@@ -125,6 +125,7 @@ void FixFlowForce::init()
 
 void FixFlowForce::setup(int vflag)
 {
+  guard.prepared();
   part = 0.5;    // the first force of a run acts until the middle of its first step
   if (utils::strmatch(update->integrate_style, "^verlet")) {
     post_force(vflag);
@@ -157,6 +158,7 @@ void FixFlowForce::for_blocks(const std::function<void()> &act)
 
 void FixFlowForce::post_force(int vflag)
 {
+  guard.require(this);
   v_init(vflag);
   if (per_atom && atom->nmax > nmax) grow_output();
   if (sub_stepper) relaxations.resize(atom->nlocal);

@@ -11,6 +11,7 @@ FixStyle(flow/force,FixFlowForce);
 
 #include "fix_per_grid.h"
 #include "flow_feedback.h"
+#include "run_guard.h"
 
 #include "flow/fluid_forces.h"
 #include "flow/lane_rows.h"
@@ -49,6 +50,7 @@ class FixFlowForce : public FixPerGrid {
  private:
   static constexpr const char *command = "Fix flow/force";
 
+  RunGuard guard;
   std::string field_id;
   class FixFlowField *field = nullptr;
   apf::FluidModel model;

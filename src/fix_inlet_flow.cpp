@@ -25,7 +25,7 @@ using MathConst::MY_PI;
 
 /* ---------------------------------------------------------------------- */
 
-FixInletFlow::FixInletFlow(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixInletFlow::FixInletFlow(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), guard(lmp)
 {
   check_spheres(lmp, command, 2);
   if (!atom->tag_enable) error->all(FLERR, 2, "{} needs atoms with IDs", command);
@@ -95,6 +95,7 @@ apf::InletPlane FixInletFlow::rectangle() const
 
 void FixInletFlow::setup(int /*vflag*/)
 {
+  guard.prepared();
   measure();
   if (inflow.flux() > 0.0) return;
   if (!field->unsteady())
@@ -121,6 +122,7 @@ void FixInletFlow::measure()
 
 void FixInletFlow::post_integrate()
 {
+  guard.require(this);
   const bool changed = field->unsteady() || !(rectangle() == inflow.rectangle());
   if (changed) measure();
   const bool inserts = update->ntimestep % every == 0;

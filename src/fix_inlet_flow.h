@@ -11,6 +11,7 @@ FixStyle(inlet/flow,FixInletFlow);
 
 #include "fix.h"
 #include "known_walls.h"
+#include "run_guard.h"
 
 #include "flow/diameter_law.h"
 #include "flow/inlet_flux.h"
@@ -43,6 +44,8 @@ class FixInletFlow : public Fix {
 
  private:
   static constexpr const char *command = "Fix inlet/flow";
+
+  RunGuard guard;
 
   struct Particle {
     double x[3], radius;

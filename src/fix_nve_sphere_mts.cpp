@@ -45,6 +45,7 @@ int FixNVESphereMTS::setmask()
 
 void FixNVESphereMTS::setup(int)
 {
+  guard.prepared();
   foresight.begin_run();
   begin_totals();
   int held_that_move = 0;
@@ -91,6 +92,7 @@ double FixNVESphereMTS::step_of(int i) const
 
 void FixNVESphereMTS::initial_integrate(int /*vflag*/)
 {
+  guard.require(this);
   history->require_lists();
   if (run_totals.particle_steps == 0) find_slow_largest();
   if (foresight.look(slow_largest)) next_reneighbor = update->ntimestep;

@@ -14,6 +14,7 @@ FixStyle(nve/sphere/mts,FixNVESphereMTS);
 #include "contact/islands.h"
 #include "contact/stiffness.h"
 #include "particle_look_ahead.h"
+#include "run_guard.h"
 #include "timestep/sub_step.h"
 
 #include <array>
@@ -88,6 +89,7 @@ class FixNVESphereMTS : public Fix {
   static constexpr int too_many = 1000000;    // collision steps of a particle step
 
   // as the script has it
+  RunGuard guard;
   int fixed_steps = 0;    // collision steps of a particle step; 0 = from the stiffest mode
   apf::StepRule rule;     // else: how fine it must be
   int fluid_every = 1;    // particle steps of a fluid step

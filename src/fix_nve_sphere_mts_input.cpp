@@ -24,7 +24,7 @@ using namespace LAMMPS_NS;
 /* ---------------------------------------------------------------------- */
 
 FixNVESphereMTS::FixNVESphereMTS(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), foresight(lmp, this, command)
+    Fix(lmp, narg, arg), guard(lmp), foresight(lmp, this, command)
 {
   check_spheres(lmp, command, 2);
   time_integrate = 1;

@@ -314,6 +314,7 @@ void FixWallLevelset::check_places()
 
 void FixWallLevelset::setup(int vflag)
 {
+  FixContacts::setup(vflag);
   check_places();
   if (auto *respa = dynamic_cast<Respa *>(update->integrate)) {
     respa->copy_flevel_f(level());
@@ -343,6 +344,7 @@ void FixWallLevelset::post_force_respa(int vflag, int ilevel, int)
 
 void FixWallLevelset::post_force(int vflag)
 {
+  guard.require(this);
   v_init(vflag);
   if (rebuild) find_again();
   ledger.move_regions();

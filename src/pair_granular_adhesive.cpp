@@ -22,7 +22,7 @@ using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
 
-PairGranularAdhesive::PairGranularAdhesive(LAMMPS *lmp) : Pair(lmp), bridges(lmp, this)
+PairGranularAdhesive::PairGranularAdhesive(LAMMPS *lmp) : Pair(lmp), bridges(lmp, this), guard(lmp)
 {
   single_enable = 1;
   single_extra = n_parts;
@@ -64,6 +64,7 @@ PairGranularAdhesive::~PairGranularAdhesive()
 
 void PairGranularAdhesive::compute(int eflag, int vflag)
 {
+  guard.require(nullptr);
   ev_init(eflag, vflag);
   if (rebuild) {
     find_rigid_masses();

@@ -15,6 +15,7 @@ PairStyle(granular/adhesive,PairGranularAdhesive);
 #include "contact_keywords.h"
 #include "pair_bridges.h"
 #include "pair_index.h"
+#include "run_guard.h"
 #include "type_sizes.h"
 
 #include <initializer_list>
@@ -89,6 +90,7 @@ class PairGranularAdhesive : public Pair {
   bool wet = false;                                       // some coefficient has bridges
   std::vector<std::vector<ContactCoeff>> coefficients;    // [1..ntypes][1..ntypes]
 
+  RunGuard guard;
   class FixContactHistory *store = nullptr;    // histories between rebuilds, velocities
   std::string id_store;
   bool rebuild = true;       // neighbour list is newer than candidates

@@ -62,6 +62,7 @@ void PairGranularAdhesive::coeff(int narg, char **arg)
 {
   if (narg < 3) utils::missing_cmd_args(FLERR, "pair_coeff granular/adhesive", error);
   if (!allocated) allocate();
+  guard.forget();
 
   // where arg[0] stands in the input line: 0, or behind the style names of pair_style hybrid
   const int offset = force->pair_match("^hybrid", 0) ? 1 : 0;
@@ -206,6 +207,7 @@ double PairGranularAdhesive::init_bridge(int i, int j, double ri, double rj)
 void PairGranularAdhesive::setup()
 {
   for (int i = 1; i <= atom->ntypes; i++)
+  guard.prepared();
     for (int j = 1; j <= atom->ntypes; j++)
       if (store->keeps_liquid() && coefficients[i][j].bridge.present() &&
           !coefficients[i][j].bridge.inventory())

@@ -50,7 +50,7 @@ void WallMotion::parse(const char *command_in, int narg, char **arg, int &iarg)
   }
 }
 
-void WallMotion::init(const char *id)
+void WallMotion::find_variables()
 {
   for (Speed *speeds : {linear, turn})
     for (int c = 0; c < 3; c++) {
@@ -64,13 +64,22 @@ void WallMotion::init(const char *id)
         error->all(FLERR, Error::NOLASTLINE, "{} {} move: variable {} must be of equal style",
                    command, id, speed.variable);
     }
+}
+
+void WallMotion::init(const char *id_in)
+{
+  id = id_in;
+  find_variables();
   if (!by_variables) take_speeds();
 }
 
 void WallMotion::take_speeds()
 {
   if (!pose.moves) return;
-  if (by_variables) modify->clearstep_compute();
+  if (by_variables) {
+    find_variables();    // a run without setup finds those that the script has made since
+    modify->clearstep_compute();
+  }
   double values[2][3];
   for (int s = 0; s < 2; s++)
     for (int c = 0; c < 3; c++) {

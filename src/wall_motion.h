@@ -38,7 +38,9 @@ class WallMotion : protected Pointers {
   };
   Speed linear[3], turn[3];
   bool by_variables = false, moved = false, turned = false;
-  std::string command;
+  std::string command, id;
+
+  void find_variables();
 };
 
 }    // namespace LAMMPS_NS

@@ -1,0 +1,58 @@
+#include "run_guard.h"
+
+#include "error.h"
+#include "fix.h"
+#include "modify.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+namespace {
+// the number of a fix is protected
+struct Numbered : Fix {
+  static int instance(const Fix *fix) { return fix->*(&Numbered::instance_me); }
+};
+
+bool is_ours(const Fix *fix)
+{
+  for (const char *style : {"^contact/history", "^flow/concentration", "^flow/field", "^flow/force",
+                            "^inlet/flow", "^nve/sphere/mts", "^wall/levelset"})
+    if (utils::strmatch(fix->style, style)) return true;
+  return false;
+}
+}    // namespace
+
+void RunGuard::prepared()
+{
+  fixes.clear();
+  for (const auto &fix : modify->get_fix_list())
+    fixes.push_back({Numbered::instance(fix), fix->id});
+}
+
+// Others' fixes that have come since do nothing in a run without setup, and harm nobody.
+std::string RunGuard::changed() const
+{
+  const auto &now = modify->get_fix_list();
+  for (size_t k = 0; k < fixes.size(); k++)
+    if (k >= now.size() || Numbered::instance(now[k]) != fixes[k].instance) return fixes[k].id;
+  for (size_t k = fixes.size(); k < now.size(); k++)
+    if (is_ours(now[k])) return now[k]->id;
+  return {};
+}
+
+void RunGuard::require(const Fix *who) const
+{
+  if (update->whichflag != 1 || update->setupflag) return;
+  const std::string other = fixes.empty() ? "" : changed();
+  if (!fixes.empty() && other.empty()) return;
+  const std::string name = who ? fmt::format("Fix {} {}", who->style, who->id)
+                               : "Pair granular/adhesive";
+  if (fixes.empty())
+    error->all(FLERR, Error::NOLASTLINE,
+               "{} is new or has new coefficients since the last run: use run without pre no",
+               name);
+  error->all(FLERR, Error::NOLASTLINE,
+             "{}: fix {} was made, replaced or taken away since the last run: use run without pre "
+             "no",
+             name, other);
+}

@@ -1,0 +1,38 @@
+// `run N pre no` prepares nothing: whether all fixes are those with which a run was prepared last.
+
+#ifndef APF_RUN_GUARD_H
+#define APF_RUN_GUARD_H
+
+#include "pointers.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class RunGuard : protected Pointers {
+ public:
+  explicit RunGuard(LAMMPS *lmp) : Pointers(lmp) {}
+
+  // where a style is set up for a run, after its init(): it knows all fixes as they are
+  void prepared();
+  // its coefficients are others: what was prepared is out of date
+  void forget() { fixes.clear(); }
+  // Before a style looks at what it knows of others: an error if fixes were made, replaced or taken
+  // away since. LAMMPS's own lists of who acts when are out of date then, too.
+  //   who   the error names it; nullptr: the pair style
+  void require(const class Fix *who) const;
+
+ private:
+  struct Known {
+    int instance;    // numbers of fixes never come again, places in memory do
+    std::string id;
+  };
+  std::vector<Known> fixes;
+
+  std::string changed() const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,99 @@
+// run pre no after commands that made, replaced or took away what styles know of each other.
+
+#include "scenes.h"
+
+namespace {
+
+const char *const asks = "use run without pre no";
+
+// Two dusty spheres in a moving fluid near a wall, with all styles that know of each other.
+void dusty(Simulation &sim, const std::string &integrator)
+{
+  Scene scene = beside_a_wall();
+  scene.style += "fix air all flow/field uniform 0 0.1 0 density 1 viscosity 1\n"
+                 "fix fog all flow/concentration 8 8 8 cloud 0.9\n"
+                 "fix drag all flow/force air drag difelice concentration fog\n"
+                 "fix in all inlet/flow y 1 air number 1 every 1000 diameter 1 density 1 type 1 "
+                 "seed 1\n";
+  build(sim, {{0.499, 4.0, 4.0}, {1.497, 4.0, 4.0}}, scene);
+  // thermo asks for none of them: LAMMPS's own would look at fixes that are gone
+  sim.run(integrator + "thermo_style custom step\nrun 5\nrun 5 pre no\n");
+}
+
+const std::string by_mts = mts(4), by_verlet = "fix nve all nve/sphere\n";
+
+TEST(RunGuard, a_run_without_setup_refuses_what_it_does_not_know)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const std::string &change :
+         {integrator, std::string("unfix drag"), std::string("unfix air"), std::string("unfix in"),
+          std::string("unfix fog"),
+          std::string("fix air all flow/field uniform 0 0.2 0 density 1 viscosity 1"),
+          std::string("fix drag all flow/force air drag schiller"),
+          std::string("fix dragged all flow/force air drag stokes"),
+          std::string("fix fog all flow/concentration 4 4 4 cloud 0.9"),
+          "fix floor all wall/levelset cylinder z 2 2 1 outside" + jkr,
+          std::string("pair_style none"), adhesive, "pair_style none\n" + adhesive,
+          "pair_coeff * *" + jkr}) {
+      SCOPED_TRACE(integrator + change);
+      // LAMMPS itself asks the pair style that is gone, but for collision steps, which come before
+      if (change == "pair_style none" && integrator == by_verlet) continue;
+      Simulation sim;
+      dusty(sim, integrator);
+      sim.run(change);
+      const std::string said = sim.error_of("run 5 pre no");
+      EXPECT_NE(said.find(asks), said.npos) << said;
+    }
+}
+
+TEST(RunGuard, a_wall_that_is_gone_or_new_is_refused)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const std::string change : {"unfix w", "replace"}) {
+      SCOPED_TRACE(change);
+      Scene scene;
+      scene.boundary = "f p p";
+      scene.style = adhesive + "fix w all wall/levelset plane x 0 NULL" + jkr + "\n";
+      Simulation sim;
+      build(sim, {{0.499, 4.0, 4.0}, {1.497, 4.0, 4.0}}, scene);
+      sim.run(integrator + "thermo_style custom step\nrun 5");
+      sim.run(change == "replace" ? "fix w all wall/levelset plane x 0 NULL" + jkr : change);
+      const std::string said = sim.error_of("run 5 pre no");
+      EXPECT_NE(said.find("fix w was made, replaced or taken away"), said.npos) << said;
+      EXPECT_NE(said.find(asks), said.npos) << said;
+    }
+}
+
+// What others change, and does not go into what our styles know, is no reason to refuse.
+TEST(RunGuard, other_commands_between_runs_are_taken)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const std::string change :
+         {"fix out all print 1000 hello", "velocity all set 0.1 0 0", "compute ke all ke"}) {
+      SCOPED_TRACE(change);
+      Simulation sim;
+      dusty(sim, integrator);
+      EXPECT_EQ(sim.error_of(change + "\nrun 5 pre no"), "");
+    }
+}
+
+// and what a variable is now counts, also one that was made anew; one that is gone is named
+TEST(RunGuard, variables_are_looked_for_in_a_run_without_setup)
+{
+  Simulation sim;
+  sim.run("variable u equal 0.1\nvariable w equal 0.0");
+  Scene scene;
+  scene.boundary = "f p p";
+  scene.style = adhesive + "fix w all wall/levelset plane x 0 NULL" + jkr +
+      "move linear 0 v_w 0\nfix air all flow/field uniform 0 v_u 0 density 1 viscosity 1\n"
+      "fix drag all flow/force air drag stokes\n";
+  build(sim, {{2.0, 4.0, 4.0}}, scene);
+  sim.run(by_verlet +
+          "thermo_style custom step\nrun 5\n"
+          "variable u delete\nvariable other equal 7\nvariable u equal 0.3\nrun 5 pre no");
+  EXPECT_EQ(sim.value("f_air[2]"), 0.3);
+  EXPECT_NE(sim.error_of("variable w delete\nrun 5 pre no").find("variable w does not exist"),
+            std::string::npos);
+}
+
+}    // namespace
