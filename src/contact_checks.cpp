@@ -3,6 +3,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_deform.h"
 #include "fix_nve_sphere.h"
 #include "group.h"
 #include "modify.h"
@@ -60,6 +61,34 @@ bool has_rigid_bodies(LAMMPS *lmp)
   return std::any_of(fixes.begin(), fixes.end(), [](const Fix *fix) {
     return fix->rigid_flag != 0;
   });
+}
+
+namespace {
+  // what fix deform does along each axis shows in a protected array only
+  struct Deforming : FixDeform {
+    static bool without_length(FixDeform *fix, int axis)
+    {
+      const int style = (fix->*(&Deforming::set))[axis].style;
+      const bool by_box_keyword = fix->dimflag[axis] && style == NONE;    // of fix deform/pressure
+      return style == VOLUME || style == PRESSURE || style == PMEAN || by_box_keyword;
+    }
+  };
+}    // namespace
+
+void check_box_rates(LAMMPS *lmp, const std::string &who)
+{
+  for (const auto &fix : lmp->modify->get_fix_list()) {
+    auto *deform = dynamic_cast<FixDeform *>(fix);
+    if (!deform || deform->remapflag != Domain::V_REMAP) continue;
+    for (int axis = 0; axis < 3; axis++)
+      if (Deforming::without_length(deform, axis))
+        lmp->error->all(FLERR, Error::NOLASTLINE,
+                        "{}: fix {} {} with remap v gives images across the border in {} a wrong "
+                        "velocity, since LAMMPS takes the strain rate of styles volume and "
+                        "pressure for the speed of the box: use remap x, or a style with a rate, "
+                        "such as erate or variable",
+                        who, fix->id, fix->style, "xyz"[axis]);
+  }
 }
 
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt)

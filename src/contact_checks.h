@@ -29,6 +29,10 @@ void check_direction(LAMMPS *lmp, const std::string &who);
 // Whether some fix holds particles together in bodies: fix nve/sphere/mts cannot move these.
 bool has_rigid_bodies(LAMMPS *lmp);
 
+// An error where fix deform with remap v gives images a wrong velocity: the rates that LAMMPS keeps
+// of some of its styles lack the length of the box.
+void check_box_rates(LAMMPS *lmp, const std::string &who);
+
 // A warning where the step is too large for the stiffest mode, with the step that would do.
 void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
 

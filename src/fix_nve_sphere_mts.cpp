@@ -117,7 +117,22 @@ void FixNVESphereMTS::pre_exchange()
   std::copy_n(&domain->h[3], 3, tilts_before);
 }
 
+// Of a pair that is seen across a boundary from both sides LAMMPS's list keeps one. Which one, is
+// decided in a triclinic box by where the two are, in an orthogonal one by the bins they are in,
+// which match from both sides in the box as it is only.
 void FixNVESphereMTS::pre_neighbor()
+{
+  if (domain->triclinic) go_with_box();
+}
+
+void FixNVESphereMTS::post_neighbor()
+{
+  if (!domain->triclinic) go_with_box();
+  foresight.list_was_built();
+  foresight.share(activity);    // ghosts are new
+}
+
+void FixNVESphereMTS::go_with_box()
 {
   const double lag = foresight.box_lag();
   if (lag == 0.0) return;

@@ -36,15 +36,11 @@ class FixNVESphereMTS : public Fix {
   void init() override;
   void setup(int) override;
   void setup_post_neighbor() override { post_neighbor(); }
-  void post_neighbor() override
-  {
-    foresight.list_was_built();
-    foresight.share(activity);    // ghosts are new
-  }
-  void setup_pre_exchange() override { pre_exchange(); }
-  void pre_exchange() override;
+  void post_neighbor() override;
   void setup_pre_neighbor() override { pre_neighbor(); }
   void pre_neighbor() override;
+  void setup_pre_exchange() override { pre_exchange(); }
+  void pre_exchange() override;
   void initial_integrate(int) override;
   void final_integrate() override;
   void post_run() override;
@@ -89,11 +85,11 @@ class FixNVESphereMTS : public Fix {
   static constexpr int too_many = 1000000;    // collision steps of a particle step
 
   // as the script has it
-  RunGuard guard;
   int fixed_steps = 0;    // collision steps of a particle step; 0 = from the stiffest mode
   apf::StepRule rule;     // else: how fine it must be
   int fluid_every = 1;    // particle steps of a fluid step
 
+  RunGuard guard;
   int n_collision = 1;           // collision steps of the present particle step
   std::vector<char> activity;    // of all atoms here: was sub-stepped in the last particle step
   std::vector<std::array<double, 6>> slow_before;    // accelerations that it began with
@@ -121,6 +117,7 @@ class FixNVESphereMTS : public Fix {
   double slow_largest = 0.0;    // acceleration of sub-stepped atoms here [velocity/time]
 
   void parse(int, char **);
+  void go_with_box();
   void begin_totals();
   void find_slow_largest();
   void choose_steps();

@@ -138,11 +138,17 @@ void FixNVESphereMTS::init()
   for (const auto &fix : modify->get_fix_list())
     if (domain->deform_vremap && utils::strmatch(fix->style, "^deform"))
       foresight.box_every = fix->nevery;
-  if (domain->deform_flag && !domain->deform_vremap && comm->me == 0)
+  for (const auto &fix : modify->get_fix_list()) {
+    const bool deforms = utils::strmatch(fix->style, "^deform");
+    if (!(fix->box_change & (BOX_CHANGE_SIZE | BOX_CHANGE_SHAPE)) ||
+        (deforms && domain->deform_vremap) || comm->me != 0)
+      continue;
     error->warning(FLERR,
-                   "{} {}: fix deform moves particles or their images between two steps, which "
-                   "look-ahead does not see, so that contacts are found late; use remap v",
-                   command, id);
+                   "{} {}: fix {} {} moves particles or their images between two steps, which "
+                   "look-ahead does not see, so that contacts are found late; use {}",
+                   command, id, fix->id, fix->style,
+                   deforms ? "remap v" : "fix deform with remap v");
+  }
   // a restart file does not tell what was sub-stepped, and a run begins as it does from there
   std::fill(activity.begin(), activity.end(), apf::FREE);
 

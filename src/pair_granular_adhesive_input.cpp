@@ -105,6 +105,7 @@ void PairGranularAdhesive::init_style()
 
   check_units(lmp, "Pair granular/adhesive");
   check_direction(lmp, "Pair granular/adhesive");
+  check_box_rates(lmp, "Pair granular/adhesive");
   neighbor->add_request(this, NeighConst::REQ_SIZE);
 
   find_special_bodies();
@@ -206,8 +207,8 @@ double PairGranularAdhesive::init_bridge(int i, int j, double ri, double rj)
 
 void PairGranularAdhesive::setup()
 {
-  for (int i = 1; i <= atom->ntypes; i++)
   guard.prepared();
+  for (int i = 1; i <= atom->ntypes; i++)
     for (int j = 1; j <= atom->ntypes; j++)
       if (store->keeps_liquid() && coefficients[i][j].bridge.present() &&
           !coefficients[i][j].bridge.inventory())

@@ -55,6 +55,17 @@ double ParticleLookAhead::box_lag() const
   return static_cast<double>(now - moved) * update->dt;
 }
 
+// No image moves by more after the neighbour list was built.                              [length]
+double ParticleLookAhead::farthest_lag() const
+{
+  if (box_every == 0 || domain->triclinic) return 0.0;
+  double rates[6], most[3];
+  for (int c = 0; c < 6; c++) rates[c] = std::fabs(domain->h_rate[c]);
+  const double one[3] = {1.0, 1.0, 1.0};
+  sum_of_box_vectors(one, rates, most);
+  return box_every * update->dt * MathExtra::len3(most);
+}
+
 void ParticleLookAhead::move_images(double time)
 {
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
@@ -178,7 +189,7 @@ bool ParticleLookAhead::moves(int i) const
 
 bool ParticleLookAhead::set_reach(const Extremes &now)
 {
-  const double dt = update->dt, skin = neighbor->skin;
+  const double dt = update->dt, box_way = farthest_lag(), skin = neighbor->skin - box_way;
   ahead.step = on ? dt : 0.0;
   ahead.reach = on ? lookahead_safety * dt : 0.0;
   ahead.margin = on ? history->longest_neck() : 0.0;
@@ -189,12 +200,13 @@ bool ParticleLookAhead::set_reach(const Extremes &now)
   const double distance = on ? longest * dt + ahead.reach * ahead.extra : 0.0;
   const bool pairs = on && atom->natoms > 1;    // a single particle needs no list for its walls
   if (pairs && fastest * dt > skin)
-    error->all(FLERR, Error::NOLASTLINE,
-               "{} {}: bodies whose velocities differ by {:.3g}, and that gain up to {:.3g}, may "
-               "approach by {:.3g} in a timestep of {:.3g}, farther than the neighbor skin of "
-               "{:.3g} lets contacts be seen: {}",
-               command, carrier->id, now.spread, ahead.extra, fastest * dt, dt, skin,
-               MeetingVelocities::cure(now.spread, now.acceleration, skin, 1.2 * distance));
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "{} {}: bodies whose velocities differ by {:.3g}, and that gain up to {:.3g}, may "
+        "approach by {:.3g} in a timestep of {:.3g}, farther than the neighbor skin of "
+        "{:.3g} lets contacts be seen: {}",
+        command, carrier->id, now.spread, ahead.extra, fastest * dt, dt, neighbor->skin,
+        MeetingVelocities::cure(now.spread, now.acceleration, skin, 1.2 * distance + box_way));
   if (pairs && distance > skin) {
     const double less = skin / distance;
     ahead.reach *= less;
@@ -204,7 +216,8 @@ bool ParticleLookAhead::set_reach(const Extremes &now)
           FLERR,
           "{} {}: looks ahead by {:.3g} timesteps instead of {:.3g}, for want of neighbor "
           "skin: use neighbor {:.2g} bin or larger, or a smaller timestep",
-          command, carrier->id, lookahead_safety * less, lookahead_safety, 1.2 * distance);
+          command, carrier->id, lookahead_safety * less, lookahead_safety,
+          1.2 * distance + box_way);
     warned_of_skin = true;
   }
   // of particles, after impacts

@@ -30,7 +30,7 @@ class ParticleLookAhead : protected Pointers {
   int box_every = 0;
   // by which the box is behind what it should be where forces are computed           [time]
   double box_lag() const;
-  // new ghosts to where they will be in the box that much later; collective
+  // ghosts of a new list to where they will be in the box that much later; collective
   void move_images(double time);
 
   // Looks at a particle step. slow_largest: acceleration of sub-stepped atoms here. Returns whether
@@ -79,6 +79,7 @@ class ParticleLookAhead : protected Pointers {
   bool moves(int i) const;
   void refuse_not_finite();    // numbers that are not finite
   void come_near(int i);
+  double farthest_lag() const;
   bool set_reach(const Extremes &);
   void find_active();
   void share_activity();
