@@ -44,6 +44,9 @@ class FixContactHistory : public FixContacts {
   double contacts_here() const override;
   double longest_neck() const;
   apf::StiffestMode stiffest_possible() const;
+  using FixContacts::fault_of_touch;
+  using FixContacts::following_timestep;
+  using FixContacts::follows_given_steps;
   using FixContacts::note_touch;
   using FixContacts::step_is_given;
   using FixContacts::steps;

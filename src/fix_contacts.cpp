@@ -8,7 +8,10 @@
 #include "modify.h"
 #include "respa.h"
 #include "restart_state.h"
+#include "timestep/first_touch.h"
 #include "update.h"
+
+#include <algorithm>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -151,6 +154,39 @@ void FixContacts::note_touch(const apf::Approach &approach, double radius_sum,
   const double moved = step * approach.relative_speed;
   const double turning = 0.5 * moved * moved / radius_sum;    // of a pair that grazes
   if (-approach.gap > rounding * (step * std::max(approach.closing_speed, 0.0) + turning)) late++;
+}
+
+bool FixContacts::follows_given_steps() const
+{
+  return !sub_stepper && !update->setupflag && update->whichflag == 1;
+}
+
+std::string FixContacts::fault_of_touch(const apf::Approach &approach, const apf::ContactList &list,
+                                        int k, double step) const
+{
+  if (!follows_given_steps()) return {};
+  const auto &c = list.kinds.constants(list.kind[k]);
+  const auto &mode = list.mode(k);
+  const auto touch = apf::FirstTouch::of(approach, c.radius_sum, c.turning);
+  if (touch.too_fast(mode, step))
+    return fmt::format("meet at a speed of {:.3g}, for {:.3g} by their stiffness, too short for "
+                       "steps of {:.3g}: found {:.3g} inside each other; use timestep {:.2g} or "
+                       "smaller, a smaller Young's modulus, or fix nve/sphere/mts",
+                       touch.speed, apf::impact_duration(mode, touch.speed), step, touch.overlap,
+                       following_timestep(mode, touch.speed));
+  const double other = c.radius_sum - c.radius_i;
+  const double smaller = other > 0.0 ? std::min(c.radius_i, other) : c.radius_i;
+  const apf::JKR law = apf::Spring(list.constants_of(k), mode.mass).law;
+  if (!touch.thrown_apart(law, mode, smaller, step)) return {};
+  return fmt::format("have come {:.3g} inside each other in a step of {:.3g}, not by their "
+                     "velocities, which differ by {:.3g}, and would be thrown apart at {:.3g}; "
+                     "insert particles where none are, and let boxes and walls move slower",
+                     touch.overlap, step, touch.relative_speed, touch.speed_apart(law, mode.mass));
+}
+
+double FixContacts::following_timestep(const apf::StiffestMode &mode, double speed) const
+{
+  return apf::impact_duration(mode, speed) / apf::good_steps * update->dt / step_of_level();
 }
 
 bool FixContacts::step_is_given() const

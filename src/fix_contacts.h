@@ -12,6 +12,8 @@
 #include "timestep/look_ahead.h"
 #include "used_velocity.h"
 
+#include <string>
+
 namespace LAMMPS_NS {
 
 // Common part of the fixes that own contacts (of particles with each other, or with walls): keeps
@@ -122,6 +124,15 @@ class FixContacts : public Fix {
   // steps, or deeper than the approach can have brought it in one
   void note_touch(const apf::Approach &, double radius_sum, const apf::StiffestMode &,
                   bool foreseen);
+  // Whether steps of a given length have to follow what happens between two looks: in a run, but
+  // for its first forces, where no collision steps are taken.
+  bool follows_given_steps() const;
+  // ... why they do not follow a contact that has just been made, with what would; nothing if they
+  // do
+  std::string fault_of_touch(const apf::Approach &, const apf::ContactList &, int k,
+                             double step) const;
+  // the timestep of the script that follows impacts at that speed
+  double following_timestep(const apf::StiffestMode &, double speed) const;
 
   RunGuard guard;
   std::vector<FixContacts *> keepers;    // all fixes that own contacts, this one included

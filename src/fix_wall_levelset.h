@@ -131,6 +131,8 @@ class FixWallLevelset : public FixContacts {
   void find_again();
   void detect();
   void look_around(int i, const double *y);
+  void check_passage(int i, double step);
+  double step_now() const;    // of the last forces
   void touch(int i, int surface, bool foreseen);
   const double *in_frame(const double *x, double *y) const;
   apf::Foot foot_of(int surface, const double *x, double *kappa = nullptr) const;

@@ -5,8 +5,10 @@
 #include "atom.h"
 #include "error.h"
 #include "fix_contact_history.h"
+#include "math_extra.h"
 #include "update.h"
 
+#include <algorithm>
 #include <limits>
 
 using namespace LAMMPS_NS;
@@ -80,10 +82,54 @@ double FixWallLevelset::reach(Marks of_surfaces) const
 void FixWallLevelset::detect()
 {
   double space[3];
+  const double step = follows_given_steps() ? step_now() : 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double *y = in_frame(atom->x[i], space);
-    if (clearances.at_least(i, y) <= atom->radius[i]) look_around(i, y);
+    if (clearances.at_least(i, y) > atom->radius[i]) continue;
+    look_around(i, y);
+    const double r = atom->radius[i];
+    if (motion.pose.moves || step * step * MathExtra::lensq3(atom->v[i]) > r * r)
+      check_passage(i, step);
+  }
+}
+
+double FixWallLevelset::step_now() const
+{
+  return (lender ? lender->times() : times()).step;
+}
+
+// A particle that flies through a rod or an edge in one step of that length ends the run.
+void FixWallLevelset::check_passage(int i, double step)
+{
+  const double r = atom->radius[i];
+  double v[3] = {atom->v[i][0], atom->v[i][1], atom->v[i][2]};
+  if (motion.pose.moves) {    // as the wall sees it
+    const auto of_wall = motion.pose.velocity_at(atom->x[i]);
+    v[0] -= of_wall.x;
+    v[1] -= of_wall.y;
+    v[2] -= of_wall.z;
+  }
+  const double speed = MathExtra::len3(v);
+  if (speed * step <= r) return;
+  for (int s = 0; s < static_cast<int>(surfaces.size()); s++) {
+    if (touched[i] >> s & 1) continue;
+    auto at = [&](double ago) {
+      double x[3];
+      for (int c = 0; c < 3; c++) x[c] = atom->x[i][c] - ago * v[c];
+      return foot_of(s, x).distance;
+    };
+    if (at(step) <= r) continue;    // it has touched
+    const int looks = static_cast<int>(std::min(1000.0, 4.0 * speed * step / r));
+    for (int n = 1; n < looks; n++)
+      if (at(step * n / looks) < r)
+        error->one(
+            FLERR, Error::NOLASTLINE,
+            "{} {}: atom {} flew through the wall{} unseen: it moves by {:.3g} in a step "
+            "of {:.3g}, and its radius is {:.3g}; use timestep {:.2g} or smaller, or fix "
+            "nve/sphere/mts",
+            command, id, atom->tag[i], of_file(), speed * step, step, r,
+            following_timestep(apf::stiffest_mode(coefficient.model, bodies_of(i, s)), speed));
   }
 }
 
@@ -117,7 +163,13 @@ void FixWallLevelset::touch(int i, int surface, bool foreseen)
                command, id, atom->tag[i], -foot.distance, of_file());
   const Marks others = zones_of(i);
   close(i, surface, apf::ContactHistory());
-  note_touch(approach_of(i, foot), atom->radius[i], contacts.mode(contacts.size() - 1), foreseen);
+  const auto approach = approach_of(i, foot);
+  const int k = contacts.size() - 1;
+  note_touch(approach, atom->radius[i], contacts.mode(k), foreseen);
+  const auto fault = fault_of_touch(approach, contacts, k, step_now());
+  if (!fault.empty())
+    error->one(FLERR, Error::NOLASTLINE, "{} {}: atom {} and the wall{} {}", command, id,
+               atom->tag[i], of_file(), fault);
   captured += 1.0;
   ledger.begin(zone_of(i, surface), others);
 }

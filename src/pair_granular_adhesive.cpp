@@ -81,6 +81,7 @@ void PairGranularAdhesive::compute(int eflag, int vflag)
   }
   // contacts open with first touch and end with the neck
   detect(true, times.advance);
+  if (new_list && store->follows_given_steps()) check_passages();
   if (store->count_contacts()) share_masses();
   if (forgets) {
     auto touch_all = [&bodies](const auto &list) {
@@ -126,6 +127,7 @@ void PairGranularAdhesive::detect(bool all, double step)
         store->note_touch(approach, candidates.touch[k], mode_of(i, j), foreseen);
       }
       close(k, apf::ContactHistory());
+      if (mine) check_touch(approach, contacts.size() - 1);
       store->bodies().touch(i);
       store->bodies().touch(j);
       if (step > 0.0) apf::correct_touch(contacts, contacts.size() - 1, rows, step, store->due);
@@ -273,6 +275,7 @@ void PairGranularAdhesive::build_candidates()
   }
   store->bodies().forget_touched();
   rebuild = false;
+  new_list = true;
   if (update->setupflag) check_places();
 }
 

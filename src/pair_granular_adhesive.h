@@ -94,6 +94,7 @@ class PairGranularAdhesive : public Pair {
   class FixContactHistory *store = nullptr;    // histories between rebuilds, velocities
   std::string id_store;
   bool rebuild = true;       // neighbour list is newer than candidates
+  bool new_list = true;      // candidates are new, and passages were not looked for
   double neck_max = 0.0;     // longest neck of any pair of types
   double reach_max = 0.0;    // and longest neck or bridge
   int freeze_group_bit = 0;
@@ -118,6 +119,9 @@ class PairGranularAdhesive : public Pair {
   void find_rigid_masses();
   void build_candidates();
   void detect(bool all, double step);
+  void check_touch(const apf::Approach &, int contact);
+  void check_passages();
+  std::string ids_of(int i, int j) const;    // for errors
   void close(int candidate, const apf::ContactHistory &);
   int number_of_kind(int i, int j);    // in contacts.kinds
   double overlap_at_rest(int i, int j) const;

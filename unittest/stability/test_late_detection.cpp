@@ -1,68 +1,10 @@
-// Contacts that are found late, C3 and C4 of the list of hard cases: under velocity Verlet and
-// stock r-RESPA, whose neighbour lists are looked at once in an outermost step, as under fix
-// nve/sphere/mts. More of the latter in test_mts_look_ahead.cpp.
+// Contacts that are found late, C3 of the list of hard cases: under velocity Verlet and stock
+// r-RESPA, whose neighbour lists are looked at once in an outermost step, as under fix
+// nve/sphere/mts. More of the latter in test_mts_look_ahead.cpp, C4 in test_tunnelling.cpp.
 
-#include "integrators.h"
-
-#include <algorithm>
-#include <random>
+#include "impacts.h"
 
 namespace {
-
-// A head-on impact at unit speed of spheres of diameter and density 1, or of one with a wall,
-// without damping: what the law makes of it, in leapfrog steps of its own.
-struct Impact {
-  JkrCurve curve;
-  double m, sticking = 0.0;    // V_s
-  double deepest = 0.0, until_deepest = 0.0, duration = 0.0;
-
-  // lambda = E; the speed is so many times V_s, 0: no adhesion
-  Impact(double lambda, bool at_wall, double ratio) :
-      curve{at_wall ? 0.5 : 0.25, lambda, 0.0}, m(at_wall ? pi / 6.0 : pi / 12.0)
-  {
-    if (ratio > 0.0) {    // V_s goes with gamma^(5/6)
-      curve.gamma = 1.0;
-      sticking = 1.0 / ratio;
-      curve.gamma = std::pow(sticking / Scale(curve, m).V_s, 1.2);
-    }
-    const double hertz = 2.9432751 * std::pow(15.0 * m / (16.0 * lambda * std::sqrt(curve.R)), 0.4),
-                 h = hertz / 4000.0, end = ratio > 0.0 ? -curve.delta_C() : 0.0;
-    double delta = 0.5 * h, w = 1.0;    // places are half a step ahead of velocities
-    for (; delta > end; duration += h) {
-      w -= h * curve.force(delta) / m;
-      delta += h * w;
-      if (w > 0.0) until_deepest += h;
-      deepest = std::max(deepest, delta);
-    }
-  }
-  bool at_wall() const { return curve.R == 0.5; }
-  std::string law() const
-  {
-    return " jkr " + digits(2.0 * curve.E * (1.0 - 0.0625)) + " 0.25 " + digits(curve.gamma) + " ";
-  }
-  double energy_after() const { return 1.0 - sticking * sticking; }    // over that before
-};
-
-// Particle steps and the collision steps in each of them; under velocity Verlet there are only
-// these.
-struct Steps {
-  Integrator integrator;
-  double particle, collision;
-  int each;
-
-  Steps(const std::string &name, double particle, double finest) :
-      particle(particle), each(static_cast<int>(std::ceil(particle / finest)))
-  {
-    collision = particle / each;
-    integrator = {name, name == "verlet" ? 1 : each};
-  }
-  std::string commands(double skin) const
-  {
-    return integrator.commands(collision) + "neighbor " + digits(skin) +
-        " bin\nneigh_modify delay 0 every 1\n";
-  }
-  std::string run(int particle_steps) const { return integrator.run(particle_steps * each); }
-};
 
 struct Found {
   double overlap = 0.0;                            // the largest after three particle steps
@@ -195,64 +137,6 @@ TEST(LateDetection, skin_that_one_step_of_respa_crosses_is_an_error)
   // a force of the outer level that gives the lighter one a speed of 0.6 in the step
   const std::string pull = "fix pull all addforce " + digits(30.0 * pi / 6.0) + " 0 0\n";
   EXPECT_NE(said(0.11, pull).find("gain up to 0.6,"), std::string::npos);
-}
-
-// C4: n impacts from all sides and up to 0.99 of the way past each other. The force acts along the
-// line between the middles, so that an impact leaves the speed as it is and turns it.
-int missed(const std::string &name, double skin, int n)
-{
-  const Impact impact(1e3, false, 0.0);
-  const int side = static_cast<int>(std::ceil(std::cbrt(n)));
-  std::mt19937 random(4);
-  std::normal_distribution<double> gauss;
-  std::uniform_real_distribution<double> uniform;
-  std::vector<double> x, v, turn;    // turn: a part of what rigid spheres would do
-  for (int k = 0; k < n; k++) {
-    double e[3], t[3], e2 = 0.0, t2 = 0.0, et = 0.0;
-    for (int c = 0; c < 3; c++) e[c] = gauss(random), t[c] = gauss(random);
-    for (int c = 0; c < 3; c++) e2 += e[c] * e[c], et += e[c] * t[c];
-    for (int c = 0; c < 3; c++) t[c] -= et / e2 * e[c];
-    for (int c = 0; c < 3; c++) t2 += t[c] * t[c];
-    const double b = 0.99 * std::sqrt(uniform(random)), far = 1.5 + 3.0 * uniform(random);
-    const int cell[3] = {k % side, k / side % side, k / side / side};
-    turn.push_back(0.1 * 2.0 * std::sqrt(1.0 - b * b));
-    for (const double sign : {-0.5, 0.5})
-      for (int c = 0; c < 3; c++) {
-        x.push_back(9.0 * (cell[c] + 0.5) +
-                    sign * (far * e[c] / std::sqrt(e2) + b * t[c] / std::sqrt(t2)));
-        v.push_back(-sign * e[c] / std::sqrt(e2));
-      }
-  }
-  Scene scene;
-  const std::string width = "0 " + std::to_string(9 * side) + " ";
-  scene.box = width + width + width;
-  scene.style = "pair_style granular/adhesive\npair_coeff * *" + impact.law() + "\n";
-  Simulation sim;
-  build(sim, {}, scene);
-  add_spheres(sim, x, v);
-  const Steps steps(name, 1.0, impact.duration / 50.0);
-  sim.run(steps.commands(skin) + steps.run(6));
-  const auto after = gather(sim, "v");
-  int bad = 0;
-  for (int k = 0; k < n; k++) {
-    double change = 0.0, energy = 0.0;
-    for (int c = 0; c < 3; c++) {
-      const double u = v[6 * k + c] - v[6 * k + 3 + c], w = after[6 * k + c] - after[6 * k + 3 + c];
-      change += (w - u) * (w - u);
-      energy += w * w;
-    }
-    bad += std::sqrt(change) < turn[k] || std::fabs(energy - 1.0) > 0.01;
-  }
-  return bad;
-}
-
-// skins that the speeds of particle steps nearly fill: in all directions they differ by up to 1.7
-TEST(LateDetection, no_impact_is_missed)
-{
-  const int n = count(5000, 100000);
-  for (const std::string name : {"verlet", "respa"})
-    expect_criterion("C4 " + name + ": missed of " + std::to_string(n) + " impacts from all sides",
-                     missed(name, 1.75, n), 0.0, 0.0);
 }
 
 }    // namespace

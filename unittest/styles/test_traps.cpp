@@ -224,7 +224,7 @@ TEST(Traps, wall_of_a_restart_that_has_lost_its_motion)
   const auto write = [&](const std::string &how) {
     Simulation sim;
     sim.run(begin + "change_box all boundary f p p\n" + wall + how +
-            "\ntimestep 1e-7\nrun 100\nwrite_restart " + file + "\n");
+            "\ntimestep 5e-9\nrun 2000\nwrite_restart " + file + "\n");
   };
   const auto read = [&](const std::string &how, std::string &log) {
     Simulation sim;
