@@ -81,7 +81,7 @@ void check_box_rates(LAMMPS *lmp, const std::string &who)
     auto *deform = dynamic_cast<FixDeform *>(fix);
     if (!deform || deform->remapflag != Domain::V_REMAP) continue;
     for (int axis = 0; axis < 3; axis++)
-      if (Deforming::without_length(deform, axis))
+      if (lmp->domain->periodicity[axis] && Deforming::without_length(deform, axis))
         lmp->error->all(FLERR, Error::NOLASTLINE,
                         "{}: fix {} {} with remap v gives images across the border in {} a wrong "
                         "velocity, since LAMMPS takes the strain rate of styles volume and "

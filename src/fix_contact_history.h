@@ -48,6 +48,7 @@ class FixContactHistory : public FixContacts {
   using FixContacts::following_timestep;
   using FixContacts::follows_given_steps;
   using FixContacts::note_touch;
+  using FixContacts::or_collision_steps;
   using FixContacts::step_is_given;
   using FixContacts::steps;
 

@@ -2,8 +2,10 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
+#include "fix_flow_force.h"
 #include "fix_nve_sphere_mts.h"
 #include "modify.h"
 #include "respa.h"
@@ -56,8 +58,12 @@ void FixContacts::init()
 {
   keepers = all_of(modify);
   sub_stepper = nullptr;
-  for (const auto &fix : modify->get_fix_list())
+  drags.clear();
+  for (const auto &fix : modify->get_fix_list()) {
     if (auto *stepper = dynamic_cast<FixNVESphereMTS *>(fix)) sub_stepper = stepper;
+    if (const auto *drag = dynamic_cast<FixFlowForce *>(fix)) drags.push_back(drag);
+  }
+  limited = !modify->get_fix_by_style("^nve/limit").empty();
 }
 
 std::vector<FixContacts *> FixContacts::all_of(Modify *modify)
@@ -158,7 +164,31 @@ void FixContacts::note_touch(const apf::Approach &approach, double radius_sum,
 
 bool FixContacts::follows_given_steps() const
 {
-  return !sub_stepper && !update->setupflag && update->whichflag == 1;
+  return !sub_stepper && !limited && !update->setupflag && update->whichflag == 1;
+}
+
+// Each body answers by its share of what a force on both moves them.
+double FixContacts::step_without_drag(const apf::ContactList &list, int k, double step) const
+{
+  if (drags.empty()) return step;
+  const auto mobility = [&](int i) {
+    double least = 1.0;
+    for (const auto *drag : drags) least = std::min(least, drag->mobility(i, step));
+    return least;
+  };
+  const int i = list.i[k], j = list.j[k];
+  const auto &c = list.kinds.constants(list.kind[k]);
+  double mean = mobility(i);
+  if (c.radius_sum > c.radius_i) {
+    const double mi = atom->rmass[i], mj = atom->rmass[j];
+    mean = (mj * mean + mi * mobility(j)) / (mi + mj);
+  }
+  return step * std::sqrt(mean);
+}
+
+std::string FixContacts::or_collision_steps() const
+{
+  return has_rigid_bodies(lmp) ? "" : ", or fix nve/sphere/mts";
 }
 
 std::string FixContacts::fault_of_touch(const apf::Approach &approach, const apf::ContactList &list,
@@ -168,19 +198,20 @@ std::string FixContacts::fault_of_touch(const apf::Approach &approach, const apf
   const auto &c = list.kinds.constants(list.kind[k]);
   const auto &mode = list.mode(k);
   const auto touch = apf::FirstTouch::of(approach, c.radius_sum, c.turning);
-  if (touch.too_fast(mode, step))
+  if (touch.too_fast(mode, step_without_drag(list, k, step)))
     return fmt::format("meet at a speed of {:.3g}, for {:.3g} by their stiffness, too short for "
                        "steps of {:.3g}: found {:.3g} inside each other; use timestep {:.2g} or "
-                       "smaller, a smaller Young's modulus, or fix nve/sphere/mts",
+                       "smaller, or a smaller Young's modulus{}",
                        touch.speed, apf::impact_duration(mode, touch.speed), step, touch.overlap,
-                       following_timestep(mode, touch.speed));
+                       following_timestep(mode, touch.speed), or_collision_steps());
   const double other = c.radius_sum - c.radius_i;
   const double smaller = other > 0.0 ? std::min(c.radius_i, other) : c.radius_i;
   const apf::JKR law = apf::Spring(list.constants_of(k), mode.mass).law;
   if (!touch.thrown_apart(law, mode, smaller, step)) return {};
   return fmt::format("have come {:.3g} inside each other in a step of {:.3g}, not by their "
                      "velocities, which differ by {:.3g}, and would be thrown apart at {:.3g}; "
-                     "insert particles where none are, and let boxes and walls move slower",
+                     "insert particles where none are, let boxes and walls move slower, and the "
+                     "neighbor list be built often enough (neigh_modify delay 0 every 1)",
                      touch.overlap, step, touch.relative_speed, touch.speed_apart(law, mode.mass));
 }
 

@@ -125,16 +125,23 @@ class FixContacts : public Fix {
   void note_touch(const apf::Approach &, double radius_sum, const apf::StiffestMode &,
                   bool foreseen);
   // Whether steps of a given length have to follow what happens between two looks: in a run, but
-  // for its first forces, where no collision steps are taken.
+  // for its first forces, where no collision steps are taken and no fix nve/limit holds particles
+  // back.
   bool follows_given_steps() const;
   // ... why they do not follow a contact that has just been made, with what would; nothing if they
   // do
   std::string fault_of_touch(const apf::Approach &, const apf::ContactList &, int k,
                              double step) const;
+  // a step without drag that is as long for this contact
+  double step_without_drag(const apf::ContactList &, int k, double step) const;
+  // ", or fix nve/sphere/mts", where it can be used
+  std::string or_collision_steps() const;
   // the timestep of the script that follows impacts at that speed
   double following_timestep(const apf::StiffestMode &, double speed) const;
 
   RunGuard guard;
+  std::vector<const class FixFlowForce *> drags;
+  bool limited = false;                  // by fix nve/limit
   std::vector<FixContacts *> keepers;    // all fixes that own contacts, this one included
   bigint changes = 0;                    // contacts made and ended so far
 

@@ -12,6 +12,10 @@
 #include "respa.h"
 #include "update.h"
 
+#include "flow/cunningham.h"
+#include "flow/relaxation.h"
+#include "flow/stokes.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -219,6 +223,18 @@ void FixFlowForce::grow_output()
 /* ----------------------------------------------------------------------
    time for which the forces act on the velocities
 ------------------------------------------------------------------------- */
+
+double FixFlowForce::mobility(int i, double in_steps_of) const
+{
+  if (!(atom->mask[i] & groupbit) || in_steps_of != step()) return 1.0;
+  const double d = 2.0 * atom->radius[i];
+  const double slip = model.mean_free_path > 0.0 ? apf::slip_correction(model.mean_free_path, d)
+                                                 : 1.0;
+  const double rate = apf::stokes_resistance(model.viscosity, d) / (slip * atom->rmass[i]);
+  return apf::mobility_in_steps(step() * rate);
+}
+
+/* ---------------------------------------------------------------------- */
 
 double FixFlowForce::step() const
 {

@@ -46,6 +46,9 @@ class FixFlowForce : public FixPerGrid {
   void relax(int i, apf::Slow &) const;
   // part of any force on local atom i that moves it; the rest moves fluid with it (added mass)
   double share(int i) const;
+  // How far a force that acts on particle i in steps of that length moves it in one, over how far
+  // it would without this drag; 1 if the drag acts in other steps.
+  double mobility(int i, double in_steps_of) const;
 
  private:
   static constexpr const char *command = "Fix flow/force";

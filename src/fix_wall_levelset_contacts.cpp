@@ -6,6 +6,7 @@
 #include "error.h"
 #include "fix_contact_history.h"
 #include "math_extra.h"
+#include "particle_checks.h"
 #include "update.h"
 
 #include <algorithm>
@@ -83,13 +84,15 @@ void FixWallLevelset::detect()
 {
   double space[3];
   const double step = follows_given_steps() ? step_now() : 0.0;
+  const int frozen = step > 0.0 ? frozen_groups(lmp) : 0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double *y = in_frame(atom->x[i], space);
     if (clearances.at_least(i, y) > atom->radius[i]) continue;
     look_around(i, y);
     const double r = atom->radius[i];
-    if (motion.pose.moves || step * step * MathExtra::lensq3(atom->v[i]) > r * r)
+    if (step > 0.0 && !(atom->mask[i] & frozen) &&
+        (motion.pose.moves || step * step * MathExtra::lensq3(atom->v[i]) > r * r))
       check_passage(i, step);
   }
 }
@@ -126,10 +129,10 @@ void FixWallLevelset::check_passage(int i, double step)
         error->one(
             FLERR, Error::NOLASTLINE,
             "{} {}: atom {} flew through the wall{} unseen: it moves by {:.3g} in a step "
-            "of {:.3g}, and its radius is {:.3g}; use timestep {:.2g} or smaller, or fix "
-            "nve/sphere/mts",
+            "of {:.3g}, and its radius is {:.3g}; use timestep {:.2g} or smaller{}",
             command, id, atom->tag[i], of_file(), speed * step, step, r,
-            following_timestep(apf::stiffest_mode(coefficient.model, bodies_of(i, s)), speed));
+            following_timestep(apf::stiffest_mode(coefficient.model, bodies_of(i, s)), speed),
+            or_collision_steps());
   }
 }
 
@@ -166,7 +169,8 @@ void FixWallLevelset::touch(int i, int surface, bool foreseen)
   const auto approach = approach_of(i, foot);
   const int k = contacts.size() - 1;
   note_touch(approach, atom->radius[i], contacts.mode(k), foreseen);
-  const auto fault = fault_of_touch(approach, contacts, k, step_now());
+  const bool held = atom->mask[i] & frozen_groups(lmp);    // no force moves it
+  const auto fault = held ? std::string() : fault_of_touch(approach, contacts, k, step_now());
   if (!fault.empty())
     error->one(FLERR, Error::NOLASTLINE, "{} {}: atom {} and the wall{} {}", command, id,
                atom->tag[i], of_file(), fault);

@@ -9,6 +9,7 @@
 #include "math_extra.h"
 #include "neighbor.h"
 #include "timestep/first_touch.h"
+#include "timestep/spread_nearby.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,30 +47,34 @@ void PairGranularAdhesive::check_passages()
   if (2.0 * std::sqrt(fastest2) * step <= 0.5 * touch) return;
   apf::VelocityRange velocities;
   for (int i = 0; i < n; i++) velocities.include(v[i]);
-  const double spread = velocities.spread(velocities);
+  double spread = velocities.spread(velocities);
   if (spread * step <= 0.5 * touch) return;
   const double shown = apf::longest_way_shown(touch, neighbor->skin);
-  if (atom->natoms > 1 && spread * step > shown)
-    error->one(FLERR, Error::NOLASTLINE,
-               "Pair granular/adhesive: particles whose velocities differ by {:.3g} move by {:.3g} "
-               "against each other in a step of {:.3g}, farther than the {:.3g} within which a "
-               "neighbor skin of {:.3g} shows all that meet; use a smaller timestep or fix "
-               "nve/sphere/mts",
-               spread, spread * step, step, shown, neighbor->skin);
+  if (atom->natoms > 1 && spread * step > shown) {
+    // of those that can meet: in a box that is sheared the others differ more
+    const double largest = 2.0 * sizes.largest_radius();
+    spread = apf::spread_nearby(rows_of(atom->x), v, n, largest + spread * step);
+    if (spread * step > shown)
+      error->one(FLERR, Error::NOLASTLINE,
+                 "Pair granular/adhesive: particles whose velocities differ by {:.3g} move by "
+                 "{:.3g} against each other in a step of {:.3g}, farther than the {:.3g} within "
+                 "which a neighbor skin of {:.3g} shows all that meet; use a smaller timestep{}",
+                 spread, spread * step, step, shown, neighbor->skin, store->or_collision_steps());
+  }
   store->bodies().with_rows([&](const auto *rows) {
     for (int k = 0; k < candidates.size(); k++) {
       const int i = candidates.i[k], j = candidates.j[k];
       if (candidates.closed[k] || (atom->mask[i] & atom->mask[j] & freeze_group_bit)) continue;
       const auto passage = apf::Passage::of(rows[i], rows[j], step);
-      if (!passage.through(candidates.touch[k], step)) continue;
+      if (!passage.through(candidates.touch[k], step, neighbor->skin)) continue;
       error->one(FLERR, Error::NOLASTLINE,
                  "Pair granular/adhesive: particles {} {} unseen: they move by {:.3g} against each "
-                 "other in a step of {:.3g}, and touch at {:.3g}; use timestep {:.2g} or smaller, "
-                 "or fix nve/sphere/mts",
+                 "other in a step of {:.3g}, and touch at {:.3g}; use timestep {:.2g} or smaller{}",
                  ids_of(i, j),
                  passage.until > 0.0 ? "may fly through each other" : "flew through each other",
                  passage.speed * step, step, candidates.touch[k],
-                 store->following_timestep(mode_of(i, j), passage.speed));
+                 store->following_timestep(mode_of(i, j), passage.speed),
+                 store->or_collision_steps());
     }
   });
 }

@@ -17,6 +17,8 @@
 #include "neighbor.h"
 #include "particle_checks.h"
 
+#include "timestep/first_touch.h"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -224,7 +226,6 @@ void PairGranularAdhesive::setup()
 // something else.
 void PairGranularAdhesive::check_places()
 {
-  constexpr double much = 0.1;    // of the smaller radius
   NamedAtoms together, pressed;
   for (int k = 0; k < candidates.size(); k++) {
     if (candidates.closed[k]) continue;
@@ -235,7 +236,7 @@ void PairGranularAdhesive::check_places()
     const double overlap = candidates.touch[k] - distance;
     if (distance == 0.0)
       together.add(atom->tag[i], overlap);
-    else if (overlap > much * smaller && overlap > 2.0 * overlap_at_rest(i, j))
+    else if (apf::inside_each_other(overlap, smaller, overlap_at_rest(i, j)))
       pressed.add(atom->tag[i], overlap / smaller);
   }
   together.gather(world);

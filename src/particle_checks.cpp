@@ -32,12 +32,19 @@ void check_diameters(LAMMPS *lmp, const std::string &who)
 
 void check_cleared(LAMMPS *lmp, const std::string &who, const Fix *fix)
 {
-  const auto *neighbor = lmp->neighbor;
-  if (neighbor->includegroup && fix->igroup != neighbor->includegroup)
+  const int included = lmp->neighbor->includegroup;
+  if (!included) return;
+  const auto *atom = lmp->atom;
+  const int bit = lmp->group->bitmask[included];
+  int outside = 0;
+  for (int i = 0; i < atom->nlocal; i++)
+    outside = outside || (atom->mask[i] & fix->groupbit && !(atom->mask[i] & bit));
+  MPI_Allreduce(MPI_IN_PLACE, &outside, 1, MPI_INT, MPI_MAX, lmp->world);
+  if (outside)
     lmp->error->all(FLERR, Error::NOLASTLINE,
-                    "{}: its group must be {}, that of neigh_modify include, got {}: LAMMPS clears "
-                    "the forces of no other particles, which would add up from step to step",
-                    who, lmp->group->names[neighbor->includegroup], lmp->group->names[fix->igroup]);
+                    "{}: the particles of its group {} must be in {}, the group of neigh_modify "
+                    "include: LAMMPS clears the forces of no others, which would add up",
+                    who, lmp->group->names[fix->igroup], lmp->group->names[included]);
 }
 
 void check_orthogonal(LAMMPS *lmp, const std::string &what, int iarg)

@@ -19,7 +19,7 @@ void check_spheres(LAMMPS *lmp, const std::string &who, int iarg);
 void check_diameters(LAMMPS *lmp, const std::string &who);
 
 // An error where LAMMPS clears the forces of some particles only, which neigh_modify include tells,
-// and the fix adds to those of others.
+// and the fix adds to those of others. Collective.
 void check_cleared(LAMMPS *lmp, const std::string &who, const Fix *fix);
 
 // An error in a triclinic box.

@@ -204,8 +204,12 @@ bool ParticleLookAhead::set_reach(const Extremes &now)
         FLERR, Error::NOLASTLINE,
         "{} {}: bodies whose velocities differ by {:.3g}, and that gain up to {:.3g}, may "
         "approach by {:.3g} in a timestep of {:.3g}, farther than the neighbor skin of "
-        "{:.3g} lets contacts be seen: {}",
+        "{:.3g}{} lets contacts be seen: {}",
         command, carrier->id, now.spread, ahead.extra, fastest * dt, dt, neighbor->skin,
+        box_way > 0.0 ? fmt::format(", less {:.3g} by which fix deform moves images in its {} "
+                                    "timesteps,",
+                                    box_way, box_every)
+                      : "",
         MeetingVelocities::cure(now.spread, now.acceleration, skin, 1.2 * distance + box_way));
   if (pairs && distance > skin) {
     const double less = skin / distance;

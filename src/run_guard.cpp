@@ -26,7 +26,8 @@ void RunGuard::prepared()
 {
   fixes.clear();
   for (const auto &fix : modify->get_fix_list())
-    fixes.push_back({Numbered::instance(fix), fix->id});
+    if (!utils::strmatch(fix->style, "^MINIMIZE$"))    // it goes when the minimiser ends
+      fixes.push_back({Numbered::instance(fix), fix->id});
 }
 
 // Others' fixes that have come since do nothing in a run without setup, and harm nobody.

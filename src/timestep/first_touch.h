@@ -11,6 +11,9 @@
 
 #include "../contact/stiffness.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace apf {
 
 constexpr double fewest_steps = 2.0;    // of an impact                                        [-]
@@ -26,6 +29,13 @@ inline double speed2_of_impact(const StiffestMode &contact, double speed)
 inline double impact_duration(const StiffestMode &contact, double speed)
 {
   return hertz_duration * contact.impact * std::pow(speed2_of_impact(contact, speed), -0.1);
+}
+
+// much more than at rest: what has put them there is no impact
+inline bool inside_each_other(double overlap, double smaller_radius, double overlap_at_rest)
+{
+  constexpr double much = 0.1;
+  return overlap > much * smaller_radius && overlap > 2.0 * overlap_at_rest;
 }
 
 struct FirstTouch {
@@ -44,6 +54,7 @@ struct FirstTouch {
     return {overlap, std::sqrt(std::max(speed2, 0.0)), now.relative_speed};
   }
 
+  // step: without drag, which makes longer ones stable
   bool too_fast(const StiffestMode &contact, double step) const
   {
     // without a root: contacts that begin are many in a gas
@@ -55,9 +66,9 @@ struct FirstTouch {
   bool thrown_apart(const JKR &law, const StiffestMode &contact, double smaller_radius,
                     double step) const
   {
-    constexpr double rounding = 1.1, much = 0.1;
-    if (overlap <= rounding * relative_speed * step || overlap <= much * smaller_radius ||
-        overlap <= 2.0 * contact.least)
+    constexpr double rounding = 1.1;
+    if (overlap <= rounding * relative_speed * step ||
+        !inside_each_other(overlap, smaller_radius, contact.least))
       return false;
     return speed_apart(law, contact.mass) > relative_speed;
   }
@@ -99,11 +110,12 @@ struct Passage {
     p.speed = std::sqrt(v2);
     return p;
   }
-  // Unseen: in the last step or a coming one, if they move by more than half of that in it.
-  bool through(double touch, double step) const
+  // Unseen: in the last step or one of those for which a list with this skin is sure to be kept, if
+  // they move by more than half of that in it.
+  bool through(double touch, double step, double skin) const
   {
     if (nearest2 >= touch * touch || speed * step <= 0.5 * touch) return false;
-    return until > 0.0 || (until > -step && before2 > touch * touch);
+    return until > 0.0 ? (until - step) * speed < skin : until > -step && before2 > touch * touch;
   }
 };
 

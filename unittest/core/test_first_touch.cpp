@@ -4,11 +4,15 @@
 #include "timestep/first_touch.h"
 
 #include "contact/bodies.h"
+#include "flow/relaxation.h"
+#include "timestep/spread_nearby.h"
 
 #include "gtest/gtest.h"
 
+#include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 using namespace apf;
 
@@ -113,7 +117,7 @@ TEST(FirstTouch, passages_are_those_that_touch_between_two_positions)
     if (passage.until > 0.0 || std::fabs(nearest - 1.0) < 1e-5) continue;
     const bool through =
         nearest < 1.0 && distance(-1.0) > 1.0 && std::hypot(a.v[0] - b.v[0], a.v[1] - b.v[1]) > 0.5;
-    EXPECT_EQ(passage.through(1.0, 1.0), through);
+    EXPECT_EQ(passage.through(1.0, 1.0, 0.5), through);
     passed += through;
   }
   EXPECT_GT(passed, 50);
@@ -128,6 +132,61 @@ TEST(FirstTouch, lists_show_pairs_that_meet)
       EXPECT_LE(edge, 1.0 + skin);
       if (b > 0.99) { EXPECT_NEAR(edge, 1.0 + skin, 1e-5); }
     }
+}
+
+// Oscillators in leapfrog steps with a velocity that relaxes in each: as long a step as is said to
+// be as stable as one without drag neither grows nor is far from growing.
+TEST(FirstTouch, drag_makes_longer_steps_stable)
+{
+  const auto grows = [](double z, double omega) {    // steps of 1
+    const double decay = std::exp(-z), mean = z > 0.0 ? (1.0 - decay) / z : 1.0;
+    double x = 1.0, v = 0.3, late = 0.0;
+    for (int n = 0; n < 4000; n++) {
+      v = decay * v - mean * omega * omega * x;
+      x += v;
+      if (n >= 2000) late = std::max(late, std::fabs(x));
+    }
+    return late > 10.0;
+  };
+  for (const double z : {0.0, 0.1, 1.0, 10.0, 1000.0}) {
+    const double limit = 2.0 / std::sqrt(mobility_in_steps(z));
+    EXPECT_FALSE(grows(z, 0.99 * limit)) << z;
+    EXPECT_TRUE(grows(z, 1.01 * limit)) << z;
+  }
+}
+
+// Bins bound what all pairs within reach give, and tell what is far apart from it.
+TEST(SpreadNearby, bounds_pairs_within_reach_and_not_those_beyond)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform;
+  using Vectors = std::vector<std::array<double, 3>>;
+  for (const double rate : {0.0, 1.0, 50.0}) {
+    Vectors x(300), v(300);
+    for (size_t i = 0; i < x.size(); i++)
+      for (int c = 0; c < 3; c++) {
+        x[i][c] = (c == 1 ? 40.0 : 8.0) * uniform(random) - 3.0;
+        v[i][c] = uniform(random) + (c == 0 ? rate * x[i][1] : 0.0);
+      }
+    const auto pointers = [](const Vectors &all) {
+      std::vector<const double *> rows;
+      for (const auto &one : all) rows.push_back(one.data());
+      return rows;
+    };
+    const double reach = 1.5,
+                 bound = spread_nearby(pointers(x), pointers(v), static_cast<int>(x.size()), reach);
+    double most = 0.0;
+    for (size_t i = 0; i < x.size(); i++)
+      for (size_t j = 0; j < i; j++) {
+        const auto between = [&](const Vectors &of) {
+          return std::hypot(of[i][0] - of[j][0], of[i][1] - of[j][1], of[i][2] - of[j][2]);
+        };
+        if (between(x) < reach) most = std::max(most, between(v));
+      }
+    EXPECT_GE(bound, most);
+    // two bins and a bit, along each axis what the others have
+    EXPECT_LE(bound, std::hypot(1.0 + 3.0 * 40.0 / 26.0 * rate, 1.0, 1.0));
+  }
 }
 
 }    // namespace

@@ -335,21 +335,24 @@ TEST(Traps, rigid_bodies_in_a_fluid)
 // LAMMPS clears the forces of the included group alone.
 TEST(Traps, forces_that_are_not_cleared)
 {
-  const std::string scene =
-      "atom_modify first some\nneigh_modify include some\ntimestep 1e-6\nfix move all nve/sphere\n";
+  const std::string scene = "atom_modify first some\nneigh_modify include some\ntimestep 1e-6\nfix "
+                            "move some nve/sphere\n";
   const auto error = [&](const std::string &fix) {
     Simulation sim;
     sim.run(dust +
             "create_atoms 1 single 1.5e-4 1e-4 1e-4\nset group all diameter 1e-6 density "
-            "2600\nchange_box all boundary p f p\ngroup some id 1\n" +
+            "2600\nchange_box all boundary p f p\ngroup some id 1\ngroup none empty\n" +
             scene);
     return sim.error_of(fix + "run 1\n");
   };
-  const std::string words = ": its group must be some, that of neigh_modify include, got all";
+  const std::string words =
+      ": the particles of its group all must be in some, the group of neigh_modify include";
   const std::string wall = " wall/levelset plane y 0 NULL jkr 1e7 0.3 0.02\n";
   EXPECT_TRUE(has(error(drag), "Fix flow/force drag" + words));
   EXPECT_TRUE(has(error("fix w all" + wall), "Fix wall/levelset w" + words));
-  EXPECT_EQ(error("fix drag some flow/force air drag stokes\nfix w some" + wall), "");
+  for (const std::string group : {"some", "none"})
+    EXPECT_EQ(error("fix drag " + group + " flow/force air drag stokes\nfix w " + group + wall),
+              "");
 }
 
 // A minimiser has no step, and particles of rigid bodies have no fix nve/sphere/mts.
