@@ -77,6 +77,15 @@ TEST(RunGuard, other_commands_between_runs_are_taken)
     }
 }
 
+// nor is what a minimiser makes for itself and takes away
+TEST(RunGuard, runs_after_minimize_are_taken)
+{
+  Simulation sim;
+  build(sim, {{2.0, 4.0, 4.0}, {2.999, 4.0, 4.0}});
+  sim.run("fix nve all nve/sphere\nthermo_style custom step\nminimize 0 0 3 3");
+  EXPECT_EQ(sim.error_of("run 5 pre no"), "");
+}
+
 // and what a variable is now counts, also one that was made anew; one that is gone is named
 TEST(RunGuard, variables_are_looked_for_in_a_run_without_setup)
 {

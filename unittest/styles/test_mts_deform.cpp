@@ -134,6 +134,17 @@ TEST(RanksMtsDeform, velocities_of_borders_are_right_or_refused)
   }
 }
 
+// across a fixed border there are no images
+TEST(MtsDeform, volume_kept_along_a_fixed_border_is_taken)
+{
+  Scene scene;
+  scene.boundary = "p p f";
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}}, scene);
+  sim.run("fix nve all nve/sphere\nfix flow all deform 1 x erate 0.01 z volume remap v");
+  EXPECT_EQ(sim.error_of("run 1"), "");
+}
+
 TEST(MtsDeform, box_changes_that_look_ahead_does_not_see_are_warned_of)
 {
   const std::string warning = "which look-ahead does not see";
