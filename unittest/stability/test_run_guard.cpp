@@ -82,7 +82,7 @@ TEST(RunGuard, runs_after_minimize_are_taken)
 {
   Simulation sim;
   build(sim, {{2.0, 4.0, 4.0}, {2.999, 4.0, 4.0}});
-  sim.run("fix nve all nve/sphere\nthermo_style custom step\nminimize 0 0 3 3");
+  sim.run("fix nve all nve/sphere\nthermo_style custom step\nrun 1\nminimize 0 0 3 3");
   EXPECT_EQ(sim.error_of("run 5 pre no"), "");
 }
 
