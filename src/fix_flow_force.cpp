@@ -227,11 +227,16 @@ void FixFlowForce::grow_output()
 double FixFlowForce::mobility(int i, double in_steps_of) const
 {
   if (!(atom->mask[i] & groupbit) || in_steps_of != step()) return 1.0;
-  const double d = 2.0 * atom->radius[i];
+  return apf::mobility_in_steps(step() * stokes_rate(2.0 * atom->radius[i], atom->rmass[i]));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixFlowForce::stokes_rate(double d, double mass) const
+{
   const double slip = model.mean_free_path > 0.0 ? apf::slip_correction(model.mean_free_path, d)
                                                  : 1.0;
-  const double rate = apf::stokes_resistance(model.viscosity, d) / (slip * atom->rmass[i]);
-  return apf::mobility_in_steps(step() * rate);
+  return apf::stokes_resistance(model.viscosity, d) / (slip * mass);
 }
 
 /* ---------------------------------------------------------------------- */

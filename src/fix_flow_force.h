@@ -118,6 +118,7 @@ class FixFlowForce : public FixPerGrid {
   void choose_outputs();
   void grow_output();
   double step() const;
+  double stokes_rate(double d, double mass) const;    // 1/tau of a sphere                [1/time]
   void for_blocks(const std::function<void()> &act);
 
   // fix_flow_force_block.cpp

@@ -17,7 +17,6 @@
 #include "type_sizes.h"
 #include "update.h"
 
-#include "flow/cunningham.h"
 #include "flow/di_felice.h"
 #include "flow/relaxation.h"
 #include "flow/schiller_naumann.h"
@@ -347,9 +346,7 @@ void FixFlowForce::warn_of_later_forces()
   MPI_Allreduce(MPI_IN_PLACE, &rate, 1, MPI_DOUBLE, MPI_MAX, world);
   const auto sizes = TypeSizes::find(lmp, command, igroup);    // particles to come included
   const double d = 2.0 * sizes.smallest_radius(), m = sizes.smallest_mass();
-  if (rate == 0.0 && m > 0.0)
-    rate = apf::stokes_resistance(model.viscosity, d) / m /
-        (model.mean_free_path > 0.0 ? apf::slip_correction(model.mean_free_path, d) : 1.0);
+  if (rate == 0.0 && m > 0.0) rate = stokes_rate(d, m);
   const double ratio = step() * rate;
   constexpr double much = 0.1;    // forces 5 % too large
   if (ratio <= much || comm->me != 0) return;

@@ -116,6 +116,7 @@ void FixWallLevelset::init()
   check_diameters(lmp, fmt::format("{} {}", command, id));
   check_cleared(lmp, fmt::format("{} {}", command, id), this);
   check_group(lmp, fmt::format("{} {} touches", command, id), this);
+  frozen = frozen_groups(lmp);
   motion.init(id);
   rebuild = true;    // atoms may have come, gone or moved since the last run
   ledger.init(fmt::format("{} {}", command, id));

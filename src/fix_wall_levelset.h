@@ -133,6 +133,7 @@ class FixWallLevelset : public FixContacts {
   void look_around(int i, const double *y);
   void check_passage(int i, double step);
   double step_now() const;    // of the last forces
+  int frozen = 0;             // bits of groups that fix freeze holds
   void touch(int i, int surface, bool foreseen);
   const double *in_frame(const double *x, double *y) const;
   apf::Foot foot_of(int surface, const double *x, double *kappa = nullptr) const;

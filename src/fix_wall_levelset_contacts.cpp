@@ -6,7 +6,6 @@
 #include "error.h"
 #include "fix_contact_history.h"
 #include "math_extra.h"
-#include "particle_checks.h"
 #include "update.h"
 
 #include <algorithm>
@@ -84,7 +83,6 @@ void FixWallLevelset::detect()
 {
   double space[3];
   const double step = follows_given_steps() ? step_now() : 0.0;
-  const int frozen = step > 0.0 ? frozen_groups(lmp) : 0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     const double *y = in_frame(atom->x[i], space);
@@ -169,7 +167,7 @@ void FixWallLevelset::touch(int i, int surface, bool foreseen)
   const auto approach = approach_of(i, foot);
   const int k = contacts.size() - 1;
   note_touch(approach, atom->radius[i], contacts.mode(k), foreseen);
-  const bool held = atom->mask[i] & frozen_groups(lmp);    // no force moves it
+  const bool held = atom->mask[i] & frozen;    // no force moves it
   const auto fault = held ? std::string() : fault_of_touch(approach, contacts, k, step_now());
   if (!fault.empty())
     error->one(FLERR, Error::NOLASTLINE, "{} {}: atom {} and the wall{} {}", command, id,

@@ -237,28 +237,22 @@ inline std::vector<Row> table(const Files &files)
     row.outputs = {entries("f_wall", 1, 3), {"f_wall[12]"}, {"c_sum[6]"}};
     row.shift = "0 0 4";
   }
-  {
-    auto &row = add("fix inlet/flow, fix flow/force drag");
+  auto add_inlet = [&](const std::string &name, const std::string &words, const char *last) {
+    auto &row = add(name);
     row.start = box("f p p") + pair_of(jkr);
     row.styles = "fix air all flow/field uniform 200 0 0 density 1 viscosity 1\n"
-                 "fix in all inlet/flow x 0 air concentration 0.02 diameter uniform 0.3 0.5 "
-                 "density 1 type 1 seed 7 outlet x 5\n"
-                 "fix drag all flow/force air drag stokes torque yes\nneighbor 0.6 bin\n";
-    row.outputs = {entries("f_in", 1, 2), entries("f_in", 3, 4), {"f_in[9]"}};
+                 "fix in all inlet/flow x 0 air " +
+        words +
+        " diameter uniform 0.3 0.5 density 1 type 1 seed 7 outlet x 5\n"
+        "fix drag all flow/force air drag stokes torque yes\nneighbor 0.6 bin\n";
+    row.outputs = {entries("f_in", 1, 2), entries("f_in", 3, 4), {last}};
     row.no_shift = "places where particles enter do not move along";
     row.empty = 2 * row.half - 1;
-  }
-  {    // in a window where there is hardly room
-    auto &row = add("fix inlet/flow number, what waits");
-    row.start = box("f p p") + pair_of(jkr);
-    row.styles = "fix air all flow/field uniform 200 0 0 density 1 viscosity 1\n"
-                 "fix in all inlet/flow x 0 air number 1.7 every 2 diameter uniform 0.3 0.5 "
-                 "density 1 type 1 seed 7 window 3.5 4.5 3.5 4.5 attempts 10 outlet x 5\n"
-                 "fix drag all flow/force air drag stokes torque yes\nneighbor 0.6 bin\n";
-    row.outputs = {entries("f_in", 1, 2), entries("f_in", 3, 4), {"f_in[5]"}};
-    row.no_shift = "places where particles enter do not move along";
-    row.empty = 2 * row.half - 1;
-  }
+  };
+  add_inlet("fix inlet/flow, fix flow/force drag", "concentration 0.02", "f_in[9]");
+  // in a window where there is hardly room
+  add_inlet("fix inlet/flow number, what waits",
+            "number 1.7 every 2 window 3.5 4.5 3.5 4.5 attempts 10", "f_in[5]");
   for (const bool any : {false, true}) {
     auto &row = add("fix inlet/flow in a channel, contacts of what has entered");
     if (any) {
