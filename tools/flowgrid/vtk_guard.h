@@ -40,8 +40,9 @@ class ReadByVtk {
   rlim_t limit_before;
 };
 
-// Does the work that reads a file by VTK; std::bad_alloc becomes an error with its name. What the
-// file names is looked at before, in the time that the file alone may take.
+// Does the work that reads a file by VTK; std::bad_alloc, and what VTK throws at numbers that it
+// trusted, become errors with its name; ours are std::runtime_error. What the file names is looked at
+// before, in the time that the file alone may take.
 template <class Work> void by_vtk(const std::string &file, const Work &work)
 {
   const ReadByVtk reading(file);
@@ -50,6 +51,8 @@ template <class Work> void by_vtk(const std::string &file, const Work &work)
     work();
   } catch (const std::bad_alloc &) {
     throw std::runtime_error(file + ": asks for more memory than there is, or is damaged");
+  } catch (const std::logic_error &error) {
+    throw std::runtime_error(file + ": is damaged; VTK says: " + error.what());
   }
 }
 

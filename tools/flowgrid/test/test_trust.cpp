@@ -141,6 +141,14 @@ TEST_F(Trust, sizes_that_are_not_there)
                  "huge.vtk", "");
 }
 
+// VTK makes room for them before it looks.
+TEST_F(Trust, points_of_less_than_no_components)
+{
+  auto text = vtu("0 1 2 3", "4", "10");
+  text.replace(text.find("Components=\"3"), 13, "Components=\"-3");
+  expect_refused(run("less.vtu", text), "less.vtu", "is damaged; VTK says: ");
+}
+
 TEST_F(Trust, surfaces_that_say_more_than_they_have)
 {
   std::string stl(80, 'x');
