@@ -41,8 +41,8 @@ class ReadByVtk {
 };
 
 // Does the work that reads a file by VTK; std::bad_alloc, and what VTK throws at numbers that it
-// trusted, become errors with its name; ours are std::runtime_error. What the file names is looked at
-// before, in the time that the file alone may take.
+// trusted, become errors with its name; ours are std::runtime_error. What the file names is looked
+// at before, in the time that the file alone may take.
 template <class Work> void by_vtk(const std::string &file, const Work &work)
 {
   const ReadByVtk reading(file);
