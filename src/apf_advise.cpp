@@ -233,9 +233,10 @@ void APFAdvise::advise_contact(const std::string &name, const ContactCoeff &coef
   finest = finest > 0.0 ? std::min(finest, contact.collision_step) : contact.collision_step;
   if (std::max(contact.rest_overlap, contact.impact_overlap) > much_overlap * r)
     cures.push_back(fmt::format("contact {}: overlap is {:.3g} of the radius at rest and {:.3g} in "
-                                "an impact at U; above {} take a larger E or scale_stiffness",
+                                "an impact at U; above {} take a larger E{}",
                                 name, contact.rest_overlap / r, contact.impact_overlap / r,
-                                much_overlap));
+                                much_overlap,
+                                model.stiffness_scale < 1.0 ? " or scale_stiffness" : ""));
 }
 
 /* ----------------------------------------------------------------------

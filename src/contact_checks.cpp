@@ -57,7 +57,8 @@ void check_direction(LAMMPS *lmp, const std::string &who)
 
 bool has_rigid_bodies(LAMMPS *lmp)
 {
-  const auto &fixes = lmp->modify->get_fix_list();
+  // of its own: that of get_fix_list() is made anew, while fix dt/reset may go through it
+  const auto fixes = lmp->modify->get_fix_by_style(".*");
   return std::any_of(fixes.begin(), fixes.end(), [](const Fix *fix) {
     return fix->rigid_flag != 0;
   });
@@ -91,9 +92,19 @@ void check_box_rates(LAMMPS *lmp, const std::string &who)
   }
 }
 
-void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt)
+void TimestepCheck::changed(LAMMPS *lmp, double dt)
 {
+  if (!told && lmp->update->whichflag == 1 && mode.frequency * dt > apf::largest_stable_kappa)
+    begin(lmp, who, mode, dt);
+}
+
+void TimestepCheck::begin(LAMMPS *lmp, const std::string &of, const apf::StiffestMode &stiffest,
+                          double dt)
+{
+  who = of;
+  mode = stiffest;
   const double kappa = mode.frequency * dt;
+  told = kappa > apf::largest_stable_kappa;
   if (kappa <= apf::accurate_kappa || lmp->comm->me != 0) return;
   if (lmp->update->whichflag == 2) return;    // a minimiser has no step
   const double n = std::round(lmp->update->dt / dt), good = apf::accurate_kappa / mode.frequency;
@@ -130,16 +141,52 @@ namespace {
   };
 }    // namespace
 
+namespace {
+  // whether a fix acts on what one that inserts puts into its own group and into all
+  bool acts_on_inserted(const LAMMPS *lmp, const Fix *fix, const Fix *inserts)
+  {
+    return fix->igroup == 0 || fix->igroup == inserts->igroup || lmp->group->dynamic[fix->igroup];
+  }
+}    // namespace
+
 std::string why_idle(LAMMPS *lmp, const Fix *fix)
 {
   const int group = fix->igroup;
+  std::string or_of_those;
   for (const char *inserts : {"^inlet/flow", "^deposit", "^pour"})
-    for (const auto &other : lmp->modify->get_fix_by_style(inserts))
-      if (group == 0 || other->igroup == group) return {};    // 0: all
+    for (const auto &other : lmp->modify->get_fix_by_style(inserts)) {
+      if (acts_on_inserted(lmp, fix, other)) return {};
+      or_of_those =
+          fmt::format(", or this group to fix {} {}, which inserts", other->id, other->style);
+    }
   if (lmp->group->dynamic[group] || lmp->group->count(group) > 0) return {};
   return fmt::format("its group {0} is empty; a group gets the particles that are there at its "
-                     "command: give group {0} after them",
-                     lmp->group->names[group]);
+                     "command: give group {0} after them{1}",
+                     lmp->group->names[group], or_of_those);
+}
+
+void check_inserted(LAMMPS *lmp, const std::string &who, const Fix *inserts)
+{
+  const auto warn_of = [&](const std::vector<Fix *> &fixes, const std::string &does) {
+    if (fixes.empty()) return;
+    for (const auto *fix : fixes)
+      if (acts_on_inserted(lmp, fix, inserts)) return;
+    lmp->error->warning(FLERR,
+                        "{}: what enters joins group {}, and fix {} {} {} group {} only: give both "
+                        "the same group",
+                        who,
+                        inserts->igroup == 0
+                            ? "all"
+                            : fmt::format("all and {}", lmp->group->names[inserts->igroup]),
+                        fixes[0]->id, fixes[0]->style, does, lmp->group->names[fixes[0]->igroup]);
+  };
+  if (lmp->comm->me != 0) return;
+  std::vector<Fix *> integrators;
+  for (const auto &fix : lmp->modify->get_fix_list())
+    if (fix->time_integrate) integrators.push_back(fix);
+  warn_of(integrators, "moves");
+  warn_of(lmp->modify->get_fix_by_style("^wall/levelset"), "touches");
+  warn_of(lmp->modify->get_fix_by_style("^flow/force"), "acts on");
 }
 
 void check_group(LAMMPS *lmp, const std::string &does, const Fix *fix)

@@ -34,7 +34,16 @@ bool has_rigid_bodies(LAMMPS *lmp);
 void check_box_rates(LAMMPS *lmp, const std::string &who);
 
 // A warning where the step is too large for the stiffest mode, with the step that would do.
-void check_timestep(LAMMPS *lmp, const std::string &who, const apf::StiffestMode &mode, double dt);
+class TimestepCheck {
+ public:
+  void begin(LAMMPS *, const std::string &who, const apf::StiffestMode &, double dt);    // of a run
+  void changed(LAMMPS *, double dt);    // within it, by fix dt/reset: one warning a run
+
+ private:
+  std::string who;
+  apf::StiffestMode mode;
+  bool told = true;
+};
 
 // Why a fix has no particles when a run begins, nor gets them from one that inserts: its group is
 // empty. Nothing if it has some. Collective.
@@ -42,6 +51,9 @@ std::string why_idle(LAMMPS *lmp, const Fix *fix);
 // A warning of it.
 //   does   begins the message, as in "Fix wall/levelset floor touches"
 void check_group(LAMMPS *lmp, const std::string &does, const Fix *fix);
+// Warnings where what a fix inserts, into its group and into all, is moved by no integrator, or
+// touched by no wall or moved by no fluid although there are such fixes: their groups are others.
+void check_inserted(LAMMPS *lmp, const std::string &who, const Fix *inserts);
 
 // What a user of granular particles forgets. Warnings: a skin many particles wide (the default of
 // units si is 1 mm), particles wider than the box (the default diameter is 1), integrators that do

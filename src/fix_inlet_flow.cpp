@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "atom_vec.h"
 #include "comm.h"
+#include "contact_checks.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_contacts.h"
@@ -67,6 +68,7 @@ void FixInletFlow::init()
   check_orthogonal(lmp, std::string(command) + " needs", Error::NOLASTLINE);
   check_plane();
   warn_of_equal_seeds();
+  check_inserted(lmp, fmt::format("{} {}", command, id), this);
 
   walls.find(modify);
   walls.add(field);

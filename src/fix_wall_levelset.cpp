@@ -162,15 +162,23 @@ void FixWallLevelset::check_particles()
   check_reach(r);
   const apf::WetContact wet_contact{coefficient.bridge, coefficient.model};
   std::set<double> contact_radii;    // one message for all surfaces of the same
+  apf::StiffestMode stiffest;
   for (const auto &surface : surfaces) {
     const auto bodies = bodies_at(surface, r, m);
     if (!contact_radii.insert(bodies.R).second) continue;
     overlap_at_rest = std::max(overlap_at_rest, apf::overlap_at_rest(wet_contact, bodies.R) / r);
     check_overlap(lmp, fmt::format("Fix wall/levelset {}", id), wet_contact, bodies.R, r);
-    if (step_is_given() && m > 0.0)    // LAMMPS's own inserters do not tell the mass
-      check_timestep(lmp, fmt::format("Fix wall/levelset {}", id),
-                     apf::stiffest_mode(wet_contact, bodies, r), step_of_level());
+    if (m > 0.0)    // LAMMPS's own inserters do not tell it
+      stiffest = std::max(stiffest, apf::stiffest_mode(wet_contact, bodies, r));
   }
+  timestep = {};
+  if (step_is_given() && stiffest.frequency > 0.0)
+    timestep.begin(lmp, fmt::format("Fix wall/levelset {}", id), stiffest, step_of_level());
+}
+
+void FixWallLevelset::reset_dt()
+{
+  if (step_is_given()) timestep.changed(lmp, step_of_level());
 }
 
 // Walls have no periodic images: none may be seen from beyond a periodic border.

@@ -10,6 +10,7 @@ FixStyle(wall/levelset,FixWallLevelset);
 #include "fix_contacts.h"
 
 #include "contact/contact_kernel.h"
+#include "contact_checks.h"
 #include "contact_keywords.h"
 #include "wall_bridges.h"
 #include "wall_ledger.h"
@@ -29,6 +30,7 @@ class FixWallLevelset : public FixContacts {
   int setmask() override;
   void init() override;
   void setup(int) override;
+  void reset_dt() override;
   void min_setup(int) override;
   void post_force(int) override;
   void post_force_respa(int, int, int) override;
@@ -82,7 +84,8 @@ class FixWallLevelset : public FixContacts {
   std::unique_ptr<WallGrid> grid;    // where surfaces come from a file
   std::string of_file() const;       // for errors: its name, if there is one
   WallMotion motion;
-  double resolution = 0.05;        // error of a gridded distance in units of delta_C
+  double resolution = 0.05;    // error of a gridded distance in units of delta_C
+  TimestepCheck timestep;
   double overlap_at_rest = 0.0;    // of the smallest particle, in units of its radius
   double checked_for[4] = {};      // radii, error, reach of bridges that the grid is good for
   ContactCoeff coefficient;

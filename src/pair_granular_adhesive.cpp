@@ -143,12 +143,26 @@ void PairGranularAdhesive::detect(bool all, double step)
    sub-steps of a particle step
 ------------------------------------------------------------------------- */
 
-bool PairGranularAdhesive::slides() const
+template <class Has> bool PairGranularAdhesive::some_coeff(const Has &has) const
 {
   for (const auto &of_type : coefficients)
     for (const auto &coeff : of_type)
-      if (coeff.model.sliding()) return true;
+      if (has(coeff.model)) return true;
   return false;
+}
+
+bool PairGranularAdhesive::slides() const
+{
+  return some_coeff([](const apf::ContactModel &model) {
+    return model.sliding();
+  });
+}
+
+bool PairGranularAdhesive::has_springs() const
+{
+  return some_coeff([](const apf::ContactModel &model) {
+    return model.sliding() || model.twisting || model.rolling();
+  });
 }
 
 void PairGranularAdhesive::find_fastest(apf::LookAhead &ahead)

@@ -12,6 +12,7 @@ PairStyle(granular/adhesive,PairGranularAdhesive);
 #include "contact/candidates.h"
 #include "contact/contact_kernel.h"
 #include "contact/contact_tiles.h"
+#include "contact_checks.h"
 #include "contact_keywords.h"
 #include "pair_bridges.h"
 #include "pair_index.h"
@@ -32,6 +33,7 @@ class PairGranularAdhesive : public Pair {
   void coeff(int, char **) override;
   void init_style() override;
   void setup() override;
+  void reset_dt() override;
   double init_one(int, int) override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
@@ -101,6 +103,7 @@ class PairGranularAdhesive : public Pair {
   class Fix *rigid = nullptr;
   std::vector<double> mass_rigid;    // of the body an atom belongs to, 0 if none
   TypeSizes sizes;
+  TimestepCheck timestep;
 
   // values per pair that single() offers; energies by part that compute pair offers
   static constexpr int n_contact_parts = 11, n_parts = n_contact_parts + 6;
@@ -114,6 +117,8 @@ class PairGranularAdhesive : public Pair {
   PairIndex index_of_pair;
   bigint parts_step = -1;
 
+  template <class Has> bool some_coeff(const Has &) const;    // of whose model has(model) is true
+  bool has_springs() const;                                   // of sliding, twisting or rolling
   void allocate();
   void find_special_bodies();
   void find_rigid_masses();

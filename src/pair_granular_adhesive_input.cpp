@@ -18,6 +18,7 @@
 #include "particle_checks.h"
 
 #include "timestep/first_touch.h"
+#include "update.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -218,8 +219,19 @@ void PairGranularAdhesive::setup()
                    "Pair granular/adhesive keyword inventory must be given for all pairs of types "
                    "with bridges or for none; types {} {} have none",
                    i, j);
+  if (update->whichflag == 2 && has_springs() && comm->me == 0)
+    error->warning(FLERR,
+                   "Pair granular/adhesive: springs of sliding, twisting and rolling do not follow "
+                   "particles that a minimiser moves, so that energy may rise: let a damped run "
+                   "come to rest, or minimise with pair_coeff without friction");
+  timestep = {};
   if (store->step_is_given())
-    check_timestep(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());
+    timestep.begin(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());
+}
+
+void PairGranularAdhesive::reset_dt()
+{
+  if (store && store->step_is_given()) timestep.changed(lmp, store->step_of_level());
 }
 
 // Particles that overlap where a run begins, and have no contact yet: what comes of them looks like

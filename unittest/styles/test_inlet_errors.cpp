@@ -25,6 +25,49 @@ TEST(InletErrors, outlets_beside_the_inlet_across_a_periodic_border_give_a_warni
   }
 }
 
+// What enters joins group all and that of its inlet, not groups of particles that were there: 50
+// steps leave it where it entered.
+TEST(InletErrors, what_enters_and_nothing_moves)
+{
+  const auto log = [](const std::string &inlet, const std::string &others, bool &moved) {
+    Simulation sim;
+    sim.run(box("f p") + uniform +
+            "create_atoms 1 single 10 5 5\nset group all diameter 0.5 density 2\n"
+            "group bed id 1\ngroup mobile subtract all bed\ngroup late dynamic all every 1\n"
+            "unfix move\nfix in " +
+            inlet + " inlet/flow x 0 air number 1" + particle + "\nfix drag " + others +
+            " flow/force air drag stokes\nfix w " + others +
+            " wall/levelset plane y 0 NULL jkr 1e6 0.3 0.1\nfix move " + others + " nve/sphere\n");
+    const auto text = log_of(sim, "run 50\nrun 0\n");
+    double largest = 0.0;
+    const auto x = gather(sim, "x");
+    for (std::size_t k = 3; k < x.size(); k += 3) largest = std::max(largest, x[k]);
+    EXPECT_GE(x.size(), 6u) << "none entered";
+    moved = largest > 0.1;    // in a step the fluid moves by 0.01
+    return text;
+  };
+  const std::string words = "WARNING: Fix inlet/flow in: what enters joins group all";
+  bool moved = true;
+  auto text = log("all", "mobile", moved);
+  for (const std::string rest : {", and fix move nve/sphere moves group mobile only",
+                                 ", and fix w wall/levelset touches group mobile only",
+                                 ", and fix drag flow/force acts on group mobile only"})
+    EXPECT_NE(text.find(words + rest), std::string::npos) << text;
+  EXPECT_NE(text.find("give group mobile after them, or this group to fix in inlet/flow"),
+            std::string::npos)
+      << text;
+  EXPECT_FALSE(moved);
+  text = log("bed", "mobile", moved);
+  EXPECT_NE(text.find(words + " and bed, and fix move"), std::string::npos) << text;
+  EXPECT_FALSE(moved);
+  for (const auto &[inlet, others] :
+       {std::pair<std::string, std::string>{"mobile", "mobile"}, {"all", "late"}, {"bed", "all"}}) {
+    text = log(inlet, others, moved);
+    EXPECT_EQ(text.find("what enters joins"), std::string::npos) << inlet << others << text;
+    EXPECT_TRUE(moved) << inlet << " " << others;
+  }
+}
+
 TEST(InletErrors, name_what_is_wrong)
 {
   struct Row {

@@ -373,3 +373,53 @@ TEST(Traps, advice_that_cannot_be_taken)
   EXPECT_TRUE(has(rigid, too_large) && !has(rigid, mts)) << rigid;
   EXPECT_FALSE(has(still, too_large)) << still;
 }
+
+// fix dt/reset takes its largest step, just above or below omega h = 0.8 by JKR's closed form.
+TEST(Traps, step_that_fix_dt_reset_makes_too_large)
+{
+  const std::string begin = dust.substr(0, dust.find("pair_style"));
+  const double r = 5e-7, E = 0.5 * 1e7 / (1.0 - 0.3 * 0.3),
+               m = 2600.0 * 4.0 / 3.0 * M_PI * r * r * r;
+  const struct {
+    std::string who, law;
+    double R, m, E;
+  } rows[] = {
+      {"Pair granular/adhesive: timestep ", dust.substr(dust.find("pair_style")), r / 2, m / 2, E},
+      {"Fix wall/levelset w: timestep ",
+       "change_box all boundary p f p\npair_style zero 1e-6\npair_coeff * *\n"
+       "fix w all wall/levelset plane y 0 NULL jkr 1e7 0.3 0.02\n",
+       r, m, E}};
+  for (const auto &row : rows)
+    for (const std::string levels : {"", "run_style respa 2 4 bond 1 pair 1\n"})
+      for (const double of_limit : {0.98, 1.02}) {
+        SCOPED_TRACE(row.who + levels + std::to_string(of_limit));
+        const double a0 = std::cbrt(9.0 * M_PI * 0.02 * row.R * row.R / row.E),
+                     h = of_limit * 0.8 / std::sqrt(1.2 * row.E * a0 / row.m);
+        const double outer = levels.empty() ? h : 4.0 * h;
+        Simulation sim;
+        sim.run(begin + row.law + levels + "fix move all nve/sphere\ntimestep 1e-10\n");
+        EXPECT_FALSE(has(log_of(sim, "run 1\n"), row.who));
+        const auto log =
+            log_of(sim, "fix dtr all dt/reset 1 1e-10 " + digits(outer) + " 1\nrun 3\n");
+        EXPECT_EQ(has(log, row.who), of_limit > 1.0) << log;
+        EXPECT_EQ(log.find(row.who), log.rfind(row.who)) << "once" << log;
+        // a step given by timestep is told of when the next run begins, and not before
+        EXPECT_FALSE(has(log_of(sim, "unfix dtr\ntimestep 1\n"), row.who));
+      }
+}
+
+// springs are the only forces that a minimiser cannot take along
+TEST(Traps, minimise_with_friction)
+{
+  const std::string words = "do not follow particles that a minimiser moves";
+  for (const std::string friction :
+       {"", " sliding 0.3", " rolling 0.02", " sliding 0.3 twisting yes"}) {
+    std::string scene = dust;
+    const std::string law = "jkr 1e7 0.3 0.02";
+    scene.insert(scene.find(law) + law.size(), friction);
+    Simulation sim;
+    sim.run(scene + "unfix air\n");
+    EXPECT_EQ(has(log_of(sim, "minimize 0 0 1 1\n"), words), !friction.empty()) << friction;
+    EXPECT_FALSE(has(log_of(sim, "fix move all nve/sphere\nrun 0\n"), words)) << friction;
+  }
+}
