@@ -22,6 +22,12 @@ void check_overlap(LAMMPS *lmp, const std::string &who, const apf::WetContact &w
   constexpr double much = much_overlap, too_much = 10.0 * much;
   const apf::ContactModel &model = wet.dry;
   const double ratio = apf::overlap_at_rest(wet, R) / smaller_radius;
+  if (!std::isfinite(ratio))
+    lmp->error->all(
+        FLERR, Error::NOLASTLINE,
+        "{}: the overlap of particles at rest is {} of the smaller radius, which is {}: "
+        "diameters are far too small or too large for this law",
+        who, ratio, smaller_radius);
   if (ratio <= much) return;
   // overlap / r ~ (gamma/E)^(2/3), as ~ (sigma/E)^(2/3), and gamma ~ f^(2/5) where the stiffness is
   // scaled by f; sigma stays, for which a smaller f would do
@@ -104,6 +110,11 @@ void TimestepCheck::begin(LAMMPS *lmp, const std::string &of, const apf::Stiffes
   who = of;
   mode = stiffest;
   const double kappa = mode.frequency * dt;
+  if (!std::isfinite(mode.frequency))
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "{}: the frequency of a contact is {}: the smallest mass, {}, is far too small "
+                    "for this law",
+                    who, mode.frequency, mode.mass);
   told = kappa > apf::largest_stable_kappa;
   if (kappa <= apf::accurate_kappa || lmp->comm->me != 0) return;
   if (lmp->update->whichflag == 2) return;    // a minimiser has no step

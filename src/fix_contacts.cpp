@@ -8,6 +8,7 @@
 #include "fix_flow_force.h"
 #include "fix_nve_sphere_mts.h"
 #include "modify.h"
+#include "particle_checks.h"
 #include "respa.h"
 #include "restart_state.h"
 #include "timestep/first_touch.h"
@@ -49,7 +50,8 @@ FixContacts::~FixContacts()
 
 int FixContacts::setmask()
 {
-  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR | POST_RUN;
+  return INITIAL_INTEGRATE | PRE_EXCHANGE | MIN_PRE_EXCHANGE | POST_NEIGHBOR | MIN_POST_NEIGHBOR |
+      POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -90,6 +92,7 @@ bool FixContacts::lists_hold(LAMMPS *lmp)
 const apf::ContactTimes &FixContacts::take_velocities()
 {
   require_lists();
+  if (keepers.front() == this) check_finite_at_times(lmp, name());
   const double step = step_of_level();
   contacts_change();
   const double last_behind = taken.behind;
@@ -125,6 +128,38 @@ void FixContacts::require_lists()
                "ghosts, as write_restart does, and contacts were not found again: use run without "
                "pre no",
                style, id);
+}
+
+// Before anything is done to atoms in a step.
+void FixContacts::initial_integrate(int /*vflag*/)
+{
+  if (!begins) return;
+  begins = false;
+  if (order.holds(atom) && sizes() != sizes_after_run)    // else another error tells
+    error->one(FLERR, Error::NOLASTLINE,
+               "{}: a command since the last run has changed diameters, masses or types of atoms, "
+               "and their laws were not found again: use run without pre no",
+               name());
+}
+
+// Diameters, masses and types of the atoms here, in one number (FNV-1a of their bytes).
+uint64_t FixContacts::sizes() const
+{
+  uint64_t all = 14695981039346656037u;
+  const auto add = [&all](const auto *values, int n) {
+    const auto *bytes = reinterpret_cast<const unsigned char *>(values);
+    for (size_t k = 0; k < n * sizeof(*values); k++) all = (all ^ bytes[k]) * 1099511628211u;
+  };
+  add(atom->radius, atom->nlocal);
+  add(atom->rmass, atom->nlocal);
+  add(atom->type, atom->nlocal);
+  return all;
+}
+
+std::string FixContacts::name() const
+{
+  return utils::strmatch(style, "^contact/history") ? "Pair granular/adhesive"
+                                                    : fmt::format("Fix {} {}", style, id);
 }
 
 void FixContacts::recall_due(const apf::ContactTimes &times)
@@ -249,8 +284,11 @@ void FixContacts::pre_exchange()
 
 void FixContacts::post_run()
 {
+  if (keepers.front() == this) check_finite(lmp, name());
   pre_exchange();
   velocities.remember(atom, due_loads());
+  sizes_after_run = sizes();
+  begins = true;
   run_ended = true;
 }
 

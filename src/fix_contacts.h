@@ -27,12 +27,17 @@ class FixContacts : public Fix {
   ~FixContacts() override;
   int setmask() override;
   void init() override;
-  void setup(int) override { guard.prepared(); }
+  void setup(int) override
+  {
+    guard.prepared();
+    begins = false;
+  }
   void pre_exchange() override;
   void min_pre_exchange() override { pre_exchange(); }
   void post_neighbor() override { order.note(atom); }
   void setup_post_neighbor() override { post_neighbor(); }
   void min_post_neighbor() override { post_neighbor(); }
+  void initial_integrate(int) override;
   void post_run() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
@@ -150,9 +155,13 @@ class FixContacts : public Fix {
   bigint late = 0;
   bool registered = false;
   AtomOrder order;
-  bool run_ended = false;       // and no forces were computed since
-  bool stored = true;           // no forces since contacts were stored
-  apf::ContactTimes taken{};    // of the last forces
+  bool begins = false;             // a run without setup
+  uint64_t sizes_after_run = 0;    // when the last run ended
+  uint64_t sizes() const;          // diameters, masses and types of the atoms here
+  std::string name() const;        // for errors
+  bool run_ended = false;          // and no forces were computed since
+  bool stored = true;              // no forces since contacts were stored
+  apf::ContactTimes taken{};       // of the last forces
 
   int unpack(int i, const double *buf);
   virtual void share_velocities() {}    // with ghosts, where these have contacts

@@ -165,6 +165,9 @@ void FixFlowField::evaluate_variables()
     if (one.index < 0) continue;
     const double before = one.value;
     one.value = input->variable->compute_equal(one.index);
+    if (!std::isfinite(one.value))
+      error->all(FLERR, Error::NOLASTLINE, "Fix flow/field {}: variable {} is {} at step {}", id,
+                 one.variable, one.value, update->ntimestep);
     if (interval != 0.0) one.rate = interval > 0.0 ? (one.value - before) / interval : 0.0;
   }
   modify->addstep_compute((update->ntimestep / every + 1) * every);

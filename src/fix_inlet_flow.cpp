@@ -67,6 +67,7 @@ void FixInletFlow::init()
   field->require(apf::Detail::VORTICITY, false);
   check_orthogonal(lmp, std::string(command) + " needs", Error::NOLASTLINE);
   check_plane();
+  check_direction(lmp, fmt::format("{} {}", command, id));
   warn_of_equal_seeds();
   check_inserted(lmp, fmt::format("{} {}", command, id), this);
 

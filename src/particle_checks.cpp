@@ -6,7 +6,9 @@
 #include "fix.h"
 #include "group.h"
 #include "modify.h"
+#include "named_atoms.h"
 #include "neighbor.h"
+#include "update.h"
 
 namespace LAMMPS_NS {
 
@@ -45,6 +47,30 @@ void check_cleared(LAMMPS *lmp, const std::string &who, const Fix *fix)
                     "{}: the particles of its group {} must be in {}, the group of neigh_modify "
                     "include: LAMMPS clears the forces of no others, which would add up",
                     who, lmp->group->names[fix->igroup], lmp->group->names[included]);
+}
+
+void check_finite(LAMMPS *lmp, const std::string &who)
+{
+  const auto *atom = lmp->atom;
+  NamedAtoms lost;
+  for (int i = 0; i < atom->nlocal; i++) {
+    double nothing = 0.0;    // NAN where a number is not finite
+    for (double *const *rows : {atom->x, atom->v, atom->omega})
+      nothing += 0.0 * (rows[i][0] + rows[i][1] + rows[i][2]);
+    if (nothing != 0.0) lost.add(atom->tag[i], 0.0);
+  }
+  lost.gather(lmp->world);
+  if (lost.number() > 0)
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "{}: position, velocity or spin is no finite number for {} particles (IDs {}) "
+                    "at step {}",
+                    who, lost.number(), lost.ids(), lmp->update->ntimestep);
+}
+
+void check_finite_at_times(LAMMPS *lmp, const std::string &who)
+{
+  constexpr bigint every = 100;
+  if (lmp->update->setupflag || lmp->update->ntimestep % every == 0) check_finite(lmp, who);
 }
 
 void check_orthogonal(LAMMPS *lmp, const std::string &what, int iarg)

@@ -22,6 +22,12 @@ void check_diameters(LAMMPS *lmp, const std::string &who);
 // and the fix adds to those of others. Collective.
 void check_cleared(LAMMPS *lmp, const std::string &who, const Fix *fix);
 
+// An error where a place, a velocity or a spin is no finite number, with the IDs. Comparisons pass
+// over such numbers, and no neighbor list is built for them. Collective.
+void check_finite(LAMMPS *lmp, const std::string &who);
+// ... where a run begins and in every 100th step, so that it costs nothing
+void check_finite_at_times(LAMMPS *lmp, const std::string &who);
+
 // An error in a triclinic box.
 //   what   begins the message, which goes on with " an orthogonal"
 void check_orthogonal(LAMMPS *lmp, const std::string &what, int iarg);

@@ -135,7 +135,7 @@ ParticleLookAhead::Extremes ParticleLookAhead::find_extremes(double slow_largest
     const double moved[3] = {x[0] - built[0], x[1] - built[1], x[2] - built[2]};
     displacement2 = std::max(displacement2, MathExtra::lensq3(moved));
     const double f2 = MathExtra::lensq3(fs[i]), torque2 = MathExtra::lensq3(torques[i]);
-    nothing += 0.0 * (MathExtra::lensq3(vs[i]) + f2 + torque2);
+    nothing += 0.0 * (MathExtra::lensq3(vs[i]) + MathExtra::lensq3(omegas[i]) + f2 + torque2);
     ahead.acceleration[i] = (std::sqrt(f2) + 2.5 * std::sqrt(torque2) / r) / mass;
     double load[3] = {}, torque[3] = {};
     bodies.add_load_to(i, load, torque);
@@ -164,16 +164,17 @@ void ParticleLookAhead::refuse_not_finite()
 {
   NamedAtoms not_finite;
   for (int i = 0; i < atom->nlocal; i++)
-    for (const auto *of : {atom->v[i], atom->f[i], atom->torque[i]})
+    for (const auto *of : {atom->v[i], atom->omega[i], atom->f[i], atom->torque[i]})
       if (!std::isfinite(MathExtra::lensq3(of))) {
         not_finite.add(atom->tag[i], 0.0);
         break;
       }
   not_finite.gather(world);
-  error->all(FLERR, Error::NOLASTLINE,
-             "{} {}: velocity, force or torque is no finite number for {} particles (IDs {}); look "
-             "at them in the step before, and at the fixes that act on them",
-             command, carrier->id, not_finite.number(), not_finite.ids());
+  error->all(
+      FLERR, Error::NOLASTLINE,
+      "{} {}: velocity, spin, force or torque is no finite number for {} particles (IDs {}); "
+      "look at them in the step before, and at the fixes that act on them",
+      command, carrier->id, not_finite.number(), not_finite.ids());
 }
 
 // whether collisions move a body

@@ -3,6 +3,10 @@
 
 #include "scenes.h"
 
+#include "atom.h"
+#include "update.h"
+
+#include <cmath>
 #include <cstdio>
 
 namespace {
@@ -138,6 +142,48 @@ TEST(BetweenRuns, particles_at_one_place_or_without_numbers_are_refused)
   build(sim, {{4.0, 4.0, 4.0}, {1.0, 1.0, 1.0}});
   sim.run(by_mts + "run 1\nset atom 2 vx 1e200");
   expect_error(sim, "run 1", "is no finite number for 1 particles (IDs 2)");
+}
+
+// Comparisons pass over them, and no list is built: what a command made is told before the run,
+// what a force makes of them (inf - inf from step 4 on) in the 100th step, or at the end.
+TEST(BetweenRuns, numbers_of_particles_that_are_not_finite)
+{
+  const std::string words = "is no finite number for 1 particles (IDs 2)",
+                    nothing = "pair_style zero 1\npair_coeff * *\n",
+                    push = "variable f equal exp(1000*(step>3))-exp(1000*(step>3))\n"
+                           "group two id 2\nfix push two addforce 0 v_f 0\n";
+  const std::vector<std::string> styles = {
+      adhesive, nothing + "fix w all wall/levelset plane z 0 8" + jkr,
+      nothing +
+          "fix air all flow/field uniform 0 0 0 density 1 viscosity 1\n"
+          "fix drag all flow/force air drag stokes\n"};
+  for (const auto &integrator : {by_mts, by_verlet, by_verlet + "run_style respa 2 2\n"})
+    for (const auto &style : styles) {
+      if (integrator == by_mts && style != adhesive) continue;    // asks for the pair style
+      SCOPED_TRACE(integrator + style);
+      const auto begin = [&](Simulation &sim, const std::string &more) {
+        Scene scene;
+        scene.boundary = "p p f";
+        scene.style = style;
+        build(sim, {{4.0, 4.0, 4.0}, {1.0, 1.0, 1.0}}, scene);
+        sim.run(integrator + more + "run 1");
+      };
+      for (const double nonsense : {double(NAN), double(INFINITY)})
+        for (double **LAMMPS_NS::Atom::*of : {&LAMMPS_NS::Atom::v, &LAMMPS_NS::Atom::omega}) {
+          Simulation sim;
+          begin(sim, "");
+          auto *atom = sim.lammps()->atom;
+          (atom->*of)[atom->map(2)][1] = nonsense;
+          expect_error(sim, "run 1", words);
+        }
+      for (const int steps : {20, 150}) {
+        Simulation sim;
+        begin(sim, push);
+        expect_error(sim, "run " + std::to_string(steps), words);
+        const auto found = sim.lammps()->update->ntimestep;
+        EXPECT_EQ(found, integrator == by_mts ? 5 : std::min(steps + 1, 100));
+      }
+    }
 }
 
 TEST(BetweenRuns, pairs_that_begin_inside_each_other_are_warned_of)

@@ -64,6 +64,25 @@ TEST(RunGuard, a_wall_that_is_gone_or_new_is_refused)
     }
 }
 
+// radii and laws of contacts are found where a run is set up
+TEST(RunGuard, changed_diameters_masses_and_types_are_refused)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const std::string change : {"set atom 2 diameter 1.001", "set atom 2 density 1.1",
+                                     "set atom 1 mass 0.6", "set atom 1 type 2"}) {
+      SCOPED_TRACE(integrator + change);
+      Scene scene = beside_a_wall();
+      scene.types = 2;
+      Simulation sim;
+      build(sim, {{0.499, 4.0, 4.0}, {1.497, 4.0, 4.0}}, scene);
+      sim.run(integrator + "thermo_style custom step\nrun 5\nrun 5 pre no");
+      const std::string said = sim.error_of(change + "\nrun 5 pre no");
+      EXPECT_NE(said.find("has changed diameters, masses or types"), said.npos) << said;
+      EXPECT_NE(said.find(asks), said.npos) << said;
+      EXPECT_EQ(sim.error_of("run 5\nrun 5 pre no"), "");
+    }
+}
+
 // What others change, and does not go into what our styles know, is no reason to refuse.
 TEST(RunGuard, other_commands_between_runs_are_taken)
 {

@@ -259,12 +259,15 @@ TEST(RanksContactHistory, springs_travel_with_respa_too)
                    twin, "C10 respa");
 }
 
-// free, so that the springs turn the spheres: as fast, seen from a frame that moves
+// Free, so that the springs turn the spheres: beside a pair that moves as fast within a wide box,
+// and beside one that stands, whose positions round otherwise.
 TEST(RanksContactHistory, springs_travel_with_mts_too)
 {
-  const auto moved = [](double u) {
+  const auto moved = [](double u, const std::string &box = Scene().box) {
     Simulation sim;
-    build(sim, doublet(squeezed));
+    Scene scene;
+    scene.box = box;
+    build(sim, doublet(squeezed), scene);
     preload(sim);
     for (int id : {1, 2}) set_motion(sim, id, {u, 0.5 * u, 0.25 * u}, {0.0, 0.0, 0.0});
     sim.run("neighbor 0.5 bin\nfix nve all nve/sphere/mts collision 4\nrun 550");
@@ -272,12 +275,18 @@ TEST(RanksContactHistory, springs_travel_with_mts_too)
   };
   const State twin = moved(0.0);
   ASSERT_GT(largest(twin.torque), 0.1);
-  for (double u : {64.0, -128.0}) {
-    const State now = moved(u);
-    expect_criterion("C10 mts: change of force and torque through cells and ranks, free, of them",
-                     std::max(difference(now.f, twin.f), difference(now.torque, twin.torque)), 0.0,
-                     1e-10);
+  const auto expect = [](const std::string &beside, const State &now, const State &other,
+                         double most) {
+    expect_criterion("C10 mts: change of force and torque through cells and ranks, free, " +
+                         beside + ", of them",
+                     std::max(difference(now.f, other.f), difference(now.torque, other.torque)),
+                     0.0, most);
+  };
+  for (double u : {64.0, -64.0}) {
+    const State wide = moved(u, u > 0.0 ? "0 32 0 32 0 32" : "-32 8 -32 8 -32 8");
+    expect("beside a pair as fast in a wide box", moved(u), wide, 1e-12);
   }
+  for (double u : {64.0, -128.0}) expect("beside a pair that stands", moved(u), twin, 1e-10);
 }
 
 TEST(RanksContactHistory, springs_travel_along_each_decomposition)

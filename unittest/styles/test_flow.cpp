@@ -235,6 +235,30 @@ TEST(FlowField, speed_may_be_a_variable)
   }
 }
 
+// 1/0 and inf - inf from step 4 on, under each integrator
+TEST(FlowField, speed_that_is_no_finite_number)
+{
+  for (const std::string style : {"", "run_style respa 2 2\n", "mts"})
+    for (const std::string flow : {"channel x y 0 10 v_u", "uniform 0 v_u 0", "shear x y v_u 5"})
+      for (const std::string u : {"exp(1000*(step>3))", "exp(1000*(step>3))-exp(1001*(step>3))"}) {
+        SCOPED_TRACE(style + flow + u);
+        std::string scene = one_sphere;
+        if (style == "mts")
+          scene += "comm_modify vel yes\npair_style granular/adhesive\n"
+                   "pair_coeff * * jkr 1e4 0.3 0.1\nunfix move\n"
+                   "fix move all nve/sphere/mts collision 2\n";
+        else
+          scene += style;
+        Simulation sim;
+        sim.run(scene + "variable u equal " + u + "\nfix flow all flow/field " + flow + fluid +
+                "fix drag all flow/force flow drag stokes\n" + timestep(1e-6));
+        EXPECT_EQ(sim.error_of("run 3\n"), "");
+        const auto said = sim.error_of("run 10\n");
+        EXPECT_NE(said.find("Fix flow/field flow: variable u is "), said.npos) << said;
+        EXPECT_NE(said.find(" at step 4"), said.npos) << said;
+      }
+}
+
 TEST(FlowField, fluid_outside_the_walls_is_at_rest)
 {
   Simulation sim;

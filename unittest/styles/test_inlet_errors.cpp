@@ -38,7 +38,7 @@ TEST(InletErrors, what_enters_and_nothing_moves)
             inlet + " inlet/flow x 0 air number 1" + particle + "\nfix drag " + others +
             " flow/force air drag stokes\nfix w " + others +
             " wall/levelset plane y 0 NULL jkr 1e6 0.3 0.1\nfix move " + others + " nve/sphere\n");
-    const auto text = log_of(sim, "run 50\nrun 0\n");
+    auto text = log_of(sim, "run 50\nrun 0\n");
     double largest = 0.0;
     const auto x = gather(sim, "x");
     for (std::size_t k = 3; k < x.size(); k += 3) largest = std::max(largest, x[k]);

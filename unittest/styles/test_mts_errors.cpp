@@ -127,9 +127,9 @@ TEST(MtsErrors, summary_at_the_end_of_a_run)
   build(pair, {{3.0, 4.0, 4.0}, {3.99, 4.0, 4.0}, {6.0, 6.0, 6.0}});
   expect_words(log_of(pair, start + "run 5\n"),
                {"nve: 5 particle steps", "40 collision steps, 8 to 8 in a particle step",
-                "sub-stepped 66.7 % of the particles, 1 contacts at the end; stiffest mode of "
-                "contacts tangential, ",
-                "in its period, omega dt at most ", "; contacts found late 0"});
+                "sub-stepped 66.7 % of the particles, 1 contacts at the end; ",
+                "stiffest mode of contacts tangential, ", "in its period, omega dt at most ",
+                "; contacts found late 0"});
   Simulation wet;
   build(wet, {{3.0, 4.0, 4.0}, {3.995, 4.0, 4.0}});
   expect_words(log_of(wet,
