@@ -23,11 +23,10 @@ void check_overlap(LAMMPS *lmp, const std::string &who, const apf::WetContact &w
   const apf::ContactModel &model = wet.dry;
   const double ratio = apf::overlap_at_rest(wet, R) / smaller_radius;
   if (!std::isfinite(ratio))
-    lmp->error->all(
-        FLERR, Error::NOLASTLINE,
-        "{}: the overlap of particles at rest is {} of the smaller radius, which is {}: "
-        "diameters are far too small or too large for this law",
-        who, ratio, smaller_radius);
+    lmp->error->all(FLERR, Error::NOLASTLINE,
+                    "{}: the overlap of particles at rest is {} of the smaller radius, {:.3g}: "
+                    "diameters are far too small or too large for this law",
+                    who, ratio, smaller_radius);
   if (ratio <= much) return;
   // overlap / r ~ (gamma/E)^(2/3), as ~ (sigma/E)^(2/3), and gamma ~ f^(2/5) where the stiffness is
   // scaled by f; sigma stays, for which a smaller f would do
@@ -112,9 +111,8 @@ void TimestepCheck::begin(LAMMPS *lmp, const std::string &of, const apf::Stiffes
   const double kappa = mode.frequency * dt;
   if (!std::isfinite(mode.frequency))
     lmp->error->all(FLERR, Error::NOLASTLINE,
-                    "{}: the frequency of a contact is {}: the smallest mass, {}, is far too small "
-                    "for this law",
-                    who, mode.frequency, mode.mass);
+                    "{}: the frequency of a contact is {}: masses are far too small for this law",
+                    who, mode.frequency);
   told = kappa > apf::largest_stable_kappa;
   if (kappa <= apf::accurate_kappa || lmp->comm->me != 0) return;
   if (lmp->update->whichflag == 2) return;    // a minimiser has no step

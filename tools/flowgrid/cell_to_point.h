@@ -85,8 +85,11 @@ class CellToPoint {
           fit = wider, near = wide;
       }
       // a slope that the cells do not tell is none
-      for (double cut = 1e-4; fit.gain(points[p], near, centres) > most_gain; cut *= 10.0)
+      double cut = 1e-5;
+      while (fit.gain(points[p], near, centres) > most_gain) {
+        cut *= 10.0;
         fit = Fit(near, centres, cut);
+      }
       for (const int cell : near) {
         cells.items.push_back(cell);
         weight.push_back(fit.weight(points[p], centres[cell]));

@@ -130,8 +130,10 @@ Point FacetWall::reach_at(const Point &x, const Point &direction, bool open, con
     }
     return (outside ? reach : 0.0) * direction;
   }
-  for (double s = step; s < reach; s += step)
+  for (int k = 1; k * step < reach; k++) {
+    const double s = k * step;
     if (whole->nearest(x + s * direction, reach).distance > 1e-6 * step) return 0.5 * s * direction;
+  }
   return reach * direction;
 }
 

@@ -188,7 +188,7 @@ namespace {
       const std::string of_case = "$FOAM_CASE/";
       const bool begins = name.compare(0, of_case.size(), of_case) == 0;
       const std::string rest = begins ? name.substr(of_case.size()) : name;
-      const fs::path other = (begins ? home : file.parent_path()) / rest;
+      fs::path other = (begins ? home : file.parent_path()) / rest;
       const auto real = fs::weakly_canonical(other);
       const bool inside =
           std::mismatch(real_home.begin(), real_home.end(), real.begin(), real.end()).first ==

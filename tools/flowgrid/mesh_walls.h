@@ -25,11 +25,13 @@ Surface mesh_walls(const Mesh &mesh, const std::vector<std::string> &zones, Zone
     for (int f = 0; f < shape.faces; f++) {
       if (mesh.across[cell][f] >= 0) continue;
       std::vector<int> corners;
+      corners.reserve(shape.face_corners);
       for (int k = 0; k < shape.face_corners; k++)
         corners.push_back(mesh.corners[cell][shape.face[f][k]]);
       const int zone = zone_of(corners);
       if (zone < 0) continue;
       std::vector<Point> x;
+      x.reserve(corners.size());
       for (const int p : corners) x.push_back(mesh.points[p]);
       if (shape.dim == 2) {
         const Point wide{0.0, 0.0, half_width};

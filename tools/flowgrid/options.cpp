@@ -80,6 +80,7 @@ Options parse(int argc, char **argv)
   };
   auto numbers = [&](const std::string &option, int count) {
     std::vector<double> list;
+    list.reserve(count);
     for (int k = 0; k < count; k++) list.push_back(number(option, value(option)));
     return list;
   };

@@ -29,11 +29,12 @@ struct Plot3dText {
     in.seekg(0);
     std::vector<double> first;    // numbers that may be sizes
     double count = 0.0, blocks = 1.0;
-    for (std::string word; in >> word; count++)
-      if (first.size() < 1 + 3 * blocks) {
-        first.push_back(std::atof(word.c_str()));
-        blocks = std::max(1.0, std::min(first[0], 1e5));
-      }
+    for (std::string word; in >> word;) {
+      count++;
+      if (first.size() >= 1 + 3 * blocks) continue;
+      first.push_back(std::strtod(word.c_str(), nullptr));
+      blocks = std::max(1.0, std::min(first[0], 1e5));
+    }
     for (const bool many : {true, false})
       for (const bool flat : {false, true})
         for (const bool marks : {false, true})

@@ -137,6 +137,7 @@ void VtkInput::join_blocks()
 
   // surfaces beside a mesh in space are no part of it, and need not have its fields
   std::vector<int> dimensions;
+  dimensions.reserve(sets.size());
   for (auto *set : sets) dimensions.push_back(dimension_of(set));
   const int dim = *std::max_element(dimensions.begin(), dimensions.end());
   vtkNew<vtkAppendFilter> append;

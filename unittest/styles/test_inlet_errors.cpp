@@ -68,6 +68,15 @@ TEST(InletErrors, what_enters_and_nothing_moves)
   }
 }
 
+TEST(InletErrors, time_that_goes_backwards)
+{
+  Simulation sim;
+  sim.run(box() + uniform + "pair_style zero 1\npair_coeff * *\n" +
+          "fix in all inlet/flow x 0 air number 1" + particle + "\ntimestep -0.01\n");
+  const auto said = sim.error_of("run 1\n");
+  EXPECT_NE(said.find("Fix inlet/flow in: timestep must be >= 0, got -0.01"), said.npos) << said;
+}
+
 TEST(InletErrors, name_what_is_wrong)
 {
   struct Row {

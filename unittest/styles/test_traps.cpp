@@ -408,6 +408,23 @@ TEST(Traps, step_that_fix_dt_reset_makes_too_large)
       }
 }
 
+// numbers so small or large that those of the contact are none
+TEST(Traps, sizes_beyond_the_law)
+{
+  const auto said = [](const std::string &change) {
+    Simulation sim;
+    sim.run(dust + "unfix air\nset group all " + change +
+            "\nneighbor 1e-6 bin\nfix move all nve/sphere\ntimestep 1e-10\n");
+    return sim.error_of("run 1\n");
+  };
+  EXPECT_EQ(said("diameter 1e-6 density 2600"), "");
+  for (const std::string d : {"1e-300", "1e300"})
+    EXPECT_TRUE(has(said("diameter " + d), "diameters are far too small or too large for this law"))
+        << said("diameter " + d);
+  EXPECT_TRUE(has(said("density 1e-280"), "masses are far too small for this law"))
+      << said("density 1e-280");
+}
+
 // springs are the only forces that a minimiser cannot take along
 TEST(Traps, minimise_with_friction)
 {

@@ -226,7 +226,7 @@ TEST(Program, bar_of_every_long_stage_on_a_terminal_only)
     std::vector<int> percents;
     const std::string head = "\r" + stage + std::string(8 - stage.size(), ' ') + " ";
     for (size_t at = run.text.find(head); at != std::string::npos; at = run.text.find(head, at + 1))
-      percents.push_back(std::atoi(run.text.c_str() + at + head.size()));
+      percents.push_back(std::stoi(run.text.substr(at + head.size(), 4)));
     ASSERT_GE(percents.size(), 2u) << stage << "\n" << run.text;
     EXPECT_EQ(percents.back(), 100) << stage;
     EXPECT_LE(percents.size(), 4u * 101) << stage << " is shown when it has changed";
