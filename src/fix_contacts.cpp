@@ -92,7 +92,7 @@ bool FixContacts::lists_hold(LAMMPS *lmp)
 const apf::ContactTimes &FixContacts::take_velocities()
 {
   require_lists();
-  if (keepers.front() == this) check_finite_at_times(lmp, name());
+  if (finite_is_due(lmp) && keepers.front() == this) check_finite(lmp, name());
   const double step = step_of_level();
   contacts_change();
   const double last_behind = taken.behind;

@@ -163,7 +163,7 @@ void FixFlowForce::for_blocks(const std::function<void()> &act)
 void FixFlowForce::post_force(int vflag)
 {
   guard.require(this);
-  check_finite_at_times(lmp, fmt::format("{} {}", command, id));
+  if (finite_is_due(lmp)) check_finite(lmp, fmt::format("{} {}", command, id));
   v_init(vflag);
   if (per_atom && atom->nmax > nmax) grow_output();
   if (sub_stepper) relaxations.resize(atom->nlocal);

@@ -67,10 +67,10 @@ void check_finite(LAMMPS *lmp, const std::string &who)
                     who, lost.number(), lost.ids(), lmp->update->ntimestep);
 }
 
-void check_finite_at_times(LAMMPS *lmp, const std::string &who)
+bool finite_is_due(const LAMMPS *lmp)
 {
   constexpr bigint every = 100;
-  if (lmp->update->setupflag || lmp->update->ntimestep % every == 0) check_finite(lmp, who);
+  return lmp->update->setupflag || lmp->update->ntimestep % every == 0;
 }
 
 void check_orthogonal(LAMMPS *lmp, const std::string &what, int iarg)

@@ -25,8 +25,8 @@ void check_cleared(LAMMPS *lmp, const std::string &who, const Fix *fix);
 // An error where a place, a velocity or a spin is no finite number, with the IDs. Comparisons pass
 // over such numbers, and no neighbor list is built for them. Collective.
 void check_finite(LAMMPS *lmp, const std::string &who);
-// ... where a run begins and in every 100th step, so that it costs nothing
-void check_finite_at_times(LAMMPS *lmp, const std::string &who);
+// ... when it is time to: where a run begins and in every 100th step, so that it costs nothing
+bool finite_is_due(const LAMMPS *lmp);
 
 // An error in a triclinic box.
 //   what   begins the message, which goes on with " an orthogonal"
