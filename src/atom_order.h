@@ -1,5 +1,5 @@
-// Which atom has which number on this rank, owned or ghost. Lists of contacts hold numbers;
-// commands between runs may give atoms others.
+// What contacts know of atoms by their numbers on this rank, and commands between runs may change:
+// which atom has which number, and diameters, masses and types.
 
 #ifndef APF_ATOM_ORDER_H
 #define APF_ATOM_ORDER_H
@@ -7,9 +7,31 @@
 #include "atom.h"
 
 #include <cstdint>
+#include <cstring>
 
 namespace LAMMPS_NS {
 
+// The hash FNV-1a, of words instead of bytes.
+class WordHash {
+ public:
+  explicit WordHash(std::uint64_t first = 0) : now(first * prime) {}
+  template <class T> WordHash &add(const T *values, int n)
+  {
+    for (int i = 0; i < n; i++) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, &values[i], sizeof(T));
+      now = (now ^ word) * prime;
+    }
+    return *this;
+  }
+  bool operator==(const WordHash &other) const { return now == other.now; }
+
+ private:
+  static constexpr std::uint64_t prime = 0x100000001b3;
+  std::uint64_t now;
+};
+
+// of owned atoms and ghosts
 class AtomOrder {
  public:
   void note(const Atom *atom)
@@ -22,15 +44,28 @@ class AtomOrder {
 
  private:
   bool noted = false;
-  std::uint64_t now = 0;
+  WordHash now;
 
-  static std::uint64_t of(const Atom *atom)
+  static WordHash of(const Atom *atom)
   {
-    constexpr std::uint64_t prime = 0x100000001b3;    // of the hash FNV-1a
     const int all = atom->nlocal + atom->nghost;
-    std::uint64_t hash = atom->nlocal * prime + all;
-    for (int i = 0; atom->tag_enable && i < all; i++) hash = (hash ^ atom->tag[i]) * prime;
-    return hash;
+    return WordHash(atom->nlocal).add(&all, 1).add(atom->tag, atom->tag_enable ? all : 0);
+  }
+};
+
+// of owned atoms
+class AtomSizes {
+ public:
+  void note(const Atom *atom) { now = of(atom); }
+  bool hold(const Atom *atom) const { return now == of(atom); }
+
+ private:
+  WordHash now;
+
+  static WordHash of(const Atom *atom)
+  {
+    const int n = atom->nlocal;
+    return WordHash(n).add(atom->radius, n).add(atom->rmass, n).add(atom->type, n);
   }
 };
 

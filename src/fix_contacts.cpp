@@ -135,25 +135,11 @@ void FixContacts::initial_integrate(int /*vflag*/)
 {
   if (!begins) return;
   begins = false;
-  if (order.holds(atom) && sizes() != sizes_after_run)    // else another error tells
+  if (order.holds(atom) && !sizes.hold(atom))    // else another error tells
     error->one(FLERR, Error::NOLASTLINE,
                "{}: a command since the last run has changed diameters, masses or types of atoms, "
                "and their laws were not found again: use run without pre no",
                name());
-}
-
-// Diameters, masses and types of the atoms here, in one number (FNV-1a of their bytes).
-uint64_t FixContacts::sizes() const
-{
-  uint64_t all = 14695981039346656037u;
-  const auto add = [&all](const auto *values, int n) {
-    const auto *bytes = reinterpret_cast<const unsigned char *>(values);
-    for (size_t k = 0; k < n * sizeof(*values); k++) all = (all ^ bytes[k]) * 1099511628211u;
-  };
-  add(atom->radius, atom->nlocal);
-  add(atom->rmass, atom->nlocal);
-  add(atom->type, atom->nlocal);
-  return all;
 }
 
 std::string FixContacts::name() const
@@ -287,7 +273,7 @@ void FixContacts::post_run()
   if (keepers.front() == this) check_finite(lmp, name());
   pre_exchange();
   velocities.remember(atom, due_loads());
-  sizes_after_run = sizes();
+  sizes.note(atom);
   begins = true;
   run_ended = true;
 }

@@ -155,13 +155,12 @@ class FixContacts : public Fix {
   bigint late = 0;
   bool registered = false;
   AtomOrder order;
-  bool begins = false;             // a run without setup
-  uint64_t sizes_after_run = 0;    // when the last run ended
-  uint64_t sizes() const;          // diameters, masses and types of the atoms here
-  std::string name() const;        // for errors
-  bool run_ended = false;          // and no forces were computed since
-  bool stored = true;              // no forces since contacts were stored
-  apf::ContactTimes taken{};       // of the last forces
+  AtomSizes sizes;              // when the last run ended
+  bool begins = false;          // the next step may be the first of a run without setup
+  std::string name() const;     // for errors
+  bool run_ended = false;       // and no forces were computed since
+  bool stored = true;           // no forces since contacts were stored
+  apf::ContactTimes taken{};    // of the last forces
 
   int unpack(int i, const double *buf);
   virtual void share_velocities() {}    // with ghosts, where these have contacts
