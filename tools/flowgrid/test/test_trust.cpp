@@ -178,7 +178,7 @@ TEST_F(Trust, blocks_are_in_the_folder_of_their_file)
   fs::create_symlink(folder / "mesh.vtu", folder / "case/link.vtu");
   for (const std::string name : {"blocks/mesh.vtu", "./blocks//mesh.vtu", "link.vtu"})
     EXPECT_EQ(run("case/good.vtm", blocks(name)).status, 0) << name;
-  for (const std::string name :
+  for (const std::string &name :
        {std::string("../mesh.vtu"), std::string("blocks/../../mesh.vtu"), folder / "mesh.vtu",
         std::string("&#46;&#46;/mesh.vtu"), std::string("&#x2e;.&#47;mesh.vtu"),
         std::string("c:mesh.vtu"), std::string("~/mesh.vtu"), std::string("..\\mesh.vtu")})
@@ -248,12 +248,12 @@ TEST_F(Trust, files_that_a_case_includes_are_in_its_folder)
     return flowgrid_with((folder / "case") + " " + (folder / "out.vtkhdf") +
                          " --spacing 0.3 --planar 0.05");
   };
-  for (const std::string name :
+  for (const std::string &name :
        {std::string("inside"), std::string("./inside"), std::string("../inside"),
         std::string("../4/inside"), std::string("link/inside"), std::string("$FOAM_CASE/inside"),
         folder / "case/inside"})
     EXPECT_EQ(with("#include \"" + name + "\"").status, 0) << name;
-  for (const std::string name :
+  for (const std::string &name :
        {std::string("../../outside"), std::string("link/../../../outside"), folder / "outside",
         std::string("$FOAM_CASE/../outside"), std::string("$HOME/outside"),
         std::string("~/outside"), std::string("$FOAM_CASE//etc/hostname")})
