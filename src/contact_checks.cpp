@@ -99,8 +99,7 @@ void check_box_rates(LAMMPS *lmp, const std::string &who)
 
 void TimestepCheck::changed(LAMMPS *lmp, double dt)
 {
-  if (!told && lmp->update->whichflag == 1 && mode.frequency * dt > apf::largest_stable_kappa)
-    begin(lmp, who, mode, dt);
+  if (!told && mode.frequency * dt > apf::largest_stable_kappa) begin(lmp, who, mode, dt);
 }
 
 void TimestepCheck::begin(LAMMPS *lmp, const std::string &of, const apf::StiffestMode &stiffest,

@@ -176,9 +176,10 @@ void FixWallLevelset::check_particles()
     timestep.begin(lmp, fmt::format("Fix wall/levelset {}", id), stiffest, step_of_level());
 }
 
+// between runs, by command timestep, the integrator that was known may be gone
 void FixWallLevelset::reset_dt()
 {
-  if (step_is_given()) timestep.changed(lmp, step_of_level());
+  if (update->whichflag == 1 && step_is_given()) timestep.changed(lmp, step_of_level());
 }
 
 // Walls have no periodic images: none may be seen from beyond a periodic border.

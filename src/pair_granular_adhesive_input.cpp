@@ -229,9 +229,11 @@ void PairGranularAdhesive::setup()
     timestep.begin(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());
 }
 
+// between runs, by command timestep, the integrator that was known may be gone
 void PairGranularAdhesive::reset_dt()
 {
-  if (store && store->step_is_given()) timestep.changed(lmp, store->step_of_level());
+  if (update->whichflag == 1 && store->step_is_given())
+    timestep.changed(lmp, store->step_of_level());
 }
 
 // Particles that overlap where a run begins, and have no contact yet: what comes of them looks like
