@@ -147,9 +147,7 @@ namespace {
       return sphere && sphere->*(&Discs::inertia) == 0.5;
     }
   };
-}    // namespace
 
-namespace {
   // whether a fix acts on what one that inserts puts into its own group and into all
   bool acts_on_inserted(const LAMMPS *lmp, const Fix *fix, const Fix *inserts)
   {
