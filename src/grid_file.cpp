@@ -1,12 +1,12 @@
 #include "grid_file.h"
 
 #include "comm.h"
-#include "crash_line.h"
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "modify.h"
 #include "particle_checks.h"
+#include "read_guard.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -30,13 +30,12 @@ GridFile::GridFile(LAMMPS *lmp, const char *command_in, const std::string &path_
 
 /* ---------------------------------------------------------------------- */
 
-void GridFile::attempt(const std::function<void()> &work) const
+void GridFile::attempt(const std::function<void()> &work, std::size_t count) const
 {
   numbers.synchronize();
   std::string text;
   if (numbers.writer()) {
-    const CrashLine line(command + " file " + path +
-                         ": HDF5 crashes while it reads this file, which is damaged");
+    const ReadGuard guard(command + " file " + path, count);
     try {
       work();
     } catch (const std::bad_alloc &) {

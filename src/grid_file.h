@@ -37,8 +37,9 @@ class GridFile : protected Pointers {
   apf::ImageGrid image{};
   apf::Lattice lattice{};
 
-  // Lets the ranks that read do so; an error of one of them is one of all.
-  void attempt(const std::function<void()> &work) const;
+  // Lets the ranks that read do so; an error of one of them is one of all. count: of the numbers
+  // that they read.
+  void attempt(const std::function<void()> &work, std::size_t count = 0) const;
   // Memory for so many numbers. Errors if there is not enough.
   void allocate(std::size_t count);
   // The lattice of the file in the box, which it must cover unless it may be continued; advice:

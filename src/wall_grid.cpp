@@ -37,11 +37,14 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
   reaches.assign(pieces.size(), -std::numeric_limits<double>::infinity());
   jumps.assign(pieces.size(), {});
   for (size_t n = 0; n < pieces.size(); n++)
-    attempt([&] {
-      const auto nodes = nodes_of(file->read(pieces[n], 1, 0, layers()), 1);
-      jumps[n] = apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
-      reaches[n] = *std::max_element(nodes.begin(), nodes.end());
-    });
+    attempt(
+        [&] {
+          const auto nodes = nodes_of(file->read(pieces[n], 1, 0, layers()), 1);
+          jumps[n] =
+              apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
+          reaches[n] = *std::max_element(nodes.begin(), nodes.end());
+        },
+        image.nodes());
   MPI_Allreduce(MPI_IN_PLACE, reaches.data(), reaches.size(), MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, jumps.data(), 3 * jumps.size(), MPI_DOUBLE, MPI_MAX, world);
   for (size_t n = 0; n < pieces.size(); n++)

@@ -52,13 +52,15 @@ class VtkhdfWriter {
   {
     attribute(root, name, H5T_NATIVE_INT, a.size(), a.data());
   }
-  void text(const char *name, const std::string &word)
+  // variable: of variable length, as h5py writes it, in a heap of the file
+  void text(const char *name, const std::string &word, bool variable = false)
   {
     if (H5Aexists(root, name) > 0) H5Adelete(root, name);
     const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    H5Tset_size(type, word.size());
+    H5Tset_size(type, variable ? H5T_VARIABLE : word.size());
     const hid_t id = H5Acreate2(root, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    H5Awrite(id, type, word.data());
+    const char *const begin = word.c_str();
+    H5Awrite(id, type, variable ? static_cast<const void *>(&begin) : begin);
     H5Aclose(id);
     H5Sclose(space);
     H5Tclose(type);

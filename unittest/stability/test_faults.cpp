@@ -224,20 +224,14 @@ TEST(RanksFaults, series_changed_in_mid_run)
   }
 }
 
-// HDF5 1.10 follows the address of a list of names to nowhere. It may crash, but not without a line
-// that names the file.
-TEST(Faults, file_at_which_hdf5_crashes_is_named)
+// What LAMMPS says, in a process of its own, of a flow whose file has these bytes from `place` on.
+fuzz::Ended said_of_damaged(const TemporaryFile &file, std::streamoff place,
+                            const std::string &bytes)
 {
-  const TemporaryFile file("apf_crash");
-  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, [](VtkhdfWriter &w) {
-    w.field("velocity", 3, [](const double *, double, double *u) {
-      u[0] = 1.0;
-    });
-  });
   {
-    std::fstream bytes(file.path, std::ios::binary | std::ios::in | std::ios::out);
-    bytes.seekp(0x78);    // addresses of the tree and of the names of the root
-    bytes << std::string(16, '\xff');
+    std::fstream damaged(file.path, std::ios::binary | std::ios::in | std::ios::out);
+    damaged.seekp(place);
+    damaged << bytes;
   }
   Simulation sim;
   build(sim, {{4.0, 4.0, 4.0}});
@@ -247,9 +241,53 @@ TEST(Faults, file_at_which_hdf5_crashes_is_named)
                               " density 1e-3 viscosity 1");
     return 0;
   };
-  const auto ended = fuzz::in_child(work, 60, RLIM_INFINITY);
+  return fuzz::in_child(work, 60, RLIM_INFINITY);
+}
+
+void write_flow(const TemporaryFile &file, bool variable_text)
+{
+  file.write({3, 3, 3}, {0, 0, 0}, {4, 4, 4}, [&](VtkhdfWriter &w) {
+    w.text("Type", "ImageData", variable_text);
+    w.field("velocity", 3, [](const double *, double, double *u) {
+      u[0] = 1.0;
+    });
+  });
+}
+
+// HDF5 1.10 follows the address of a list of names to nowhere. It may crash, but not without a line
+// that names the file.
+TEST(Faults, file_at_which_hdf5_crashes_is_named)
+{
+  const TemporaryFile file("apf_crash");
+  write_flow(file, false);
+  // addresses of the tree and of the names of the root
+  const auto ended = said_of_damaged(file, 0x78, std::string(16, '\xff'));
   EXPECT_NE(ended.text.find("Fix flow/field file " + file.path + ": "), std::string::npos)
       << ended.death << ended.text;
+}
+
+// A text of variable length is in a heap of the file, where HDF5 1.10 goes from object to object.
+// If one that is free says that it has no length, it stays there: 20 s of the processor.
+TEST(Faults, file_at_which_hdf5_reads_without_an_end_is_named)
+{
+  const TemporaryFile file("apf_hang");
+  write_flow(file, true);
+  {
+    Simulation sim;    // as it was written it is right
+    build(sim, {{4.0, 4.0, 4.0}});
+    sim.run("fix air all flow/field file " + file.path + " density 1e-3 viscosity 1");
+  }
+  std::ifstream written(file.path, std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(written), {}};
+  const auto heap = all.find("GCOL"), text = all.find("ImageData", heap);
+  ASSERT_NE(text, std::string::npos);
+  // behind the text, filled up to 16 bytes, there is the free rest of the heap: 0, 0, 0, its length
+  const auto ended = said_of_damaged(file, text + 16 + 8, std::string(8, '\0'));
+  EXPECT_NE(ended.text.find("Fix flow/field file " + file.path +
+                            ": HDF5 works on this file for far longer than its size is worth"),
+            std::string::npos)
+      << ended.death << ended.text;
+  EXPECT_EQ(ended.status, 1) << ended.death;
 }
 
 // In one corner, of a velocity or a distance, or in the last frame of a series.
