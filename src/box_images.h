@@ -35,6 +35,50 @@ inline void sum_of_box_vectors(const double *n, const double *h, double *sum)
   sum[2] = n[2] * h[2];
 }
 
+// Partners are remembered by their ID: where the box is thinner along a periodic axis than twice the
+// range of the neighbour list, that may hold two images of one.
+class NearestImages {
+ public:
+  explicit NearestImages(const Domain *domain) : domain(domain)
+  {
+    // distances of opposite faces: inverse lengths of the rows of the inverse matrix
+    const double *inv = domain->h_inv;
+    const double width[3] = {1.0 / std::hypot(inv[0], inv[5], inv[4]),
+                             1.0 / std::hypot(inv[1], inv[3]), 1.0 / inv[2]};
+    for (int k = 0; k < 3; k++)
+      if (domain->periodicity[k] && (k < 2 || domain->dimension == 3))
+        thinnest = std::fmin(thinnest, width[k]);
+  }
+
+  double width() const { return thinnest; }    // of the box along a periodic axis; or infinite
+
+  // whether no other image of the second point is nearer to the first one
+  bool nearest(const double *from, const double *to) const
+  {
+    const double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    const double d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    if (4.0 * d2 < thinnest * thinnest) return true;
+    int most[3];
+    for (int k = 0; k < 3; k++) most[k] = domain->periodicity[k];
+    for (int a = -most[0]; a <= most[0]; a++)
+      for (int b = -most[1]; b <= most[1]; b++)
+        for (int c = -most[2]; c <= most[2]; c++) {
+          const double n[3] = {double(a), double(b), double(c)};
+          double shift[3];
+          sum_of_box_vectors(n, domain->h, shift);
+          double other2 = 0.0;
+          for (int k = 0; k < 3; k++) other2 += (d[k] + shift[k]) * (d[k] + shift[k]);
+          if (other2 < (1.0 - tolerance) * d2) return false;
+        }
+    return true;
+  }
+
+ private:
+  static constexpr double tolerance = 1e-12;    // of squares that are equal
+  const Domain *domain;
+  double thinnest = INFINITY;
+};
+
 }    // namespace LAMMPS_NS
 
 #endif

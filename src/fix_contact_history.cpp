@@ -1,6 +1,7 @@
 #include "fix_contact_history.h"
 
 #include "atom.h"
+#include "box_images.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -367,10 +368,34 @@ void FixContactHistory::store_contacts()
   for (int k = 0; k < contacts.size(); k++)
     keep(store.contacts, contacts.i[k], contacts.j[k], contacts.history_of(k));
   if (force->newton_pair) send_to_owners(store.contacts);
-  if (!bridges) return;
-  for (int k = 0; k < bridges->size(); k++)
-    keep(store.bridges, bridges->i[k], bridges->j[k], bridges->memory(k));
-  if (force->newton_pair) send_to_owners(store.bridges);
+  if (bridges) {
+    for (int k = 0; k < bridges->size(); k++)
+      keep(store.bridges, bridges->i[k], bridges->j[k], bridges->memory(k));
+    if (force->newton_pair) send_to_owners(store.bridges);
+  }
+  check_images();
+}
+
+// A pair that is joined by two images at once would find one memory for both.
+void FixContactHistory::check_images() const
+{
+  if (NearestImages(domain).width() > 2.0 * (neighbor->cutneighmax - neighbor->skin)) return;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (const tagint partner = store.contacts.repeated(i)) refuse_images(i, partner);
+    if (const tagint partner = store.bridges.repeated(i))
+      refuse_images(i, partner, "has liquid bridges with", " and bridges");
+  }
+}
+
+void FixContactHistory::refuse_images(int i, tagint partner, const char *does,
+                                      const char *wider) const
+{
+  error->one(
+      FLERR, Error::NOLASTLINE,
+      "Pair granular/adhesive: particle {} {} {} through two faces of the box at once: it is "
+      "{:.6g} thick along a periodic axis, and must be thicker than two diameters{}",
+      atom->tag[i], does, partner == atom->tag[i] ? "itself" : fmt::format("particle {}", partner),
+      NearestImages(domain).width(), wider);
 }
 
 /* ----------------------------------------------------------------------

@@ -55,6 +55,10 @@ class FixContactHistory : public FixContacts {
   void serve(class PairGranularAdhesive *style) { pair = style; }
   class PairGranularAdhesive &served() const { return *pair; }
 
+  // the error of atom i, which touches a partner through more than one of its images
+  [[noreturn]] void refuse_images(int i, tagint partner, const char *does = "touches",
+                                  const char *wider = "") const;
+
   // history of atom i's contact with the atom of that ID at the last rebuild, if there was one
   std::optional<apf::ContactHistory> find(int i, tagint partner) const
   {
@@ -102,6 +106,7 @@ class FixContactHistory : public FixContacts {
 
  protected:
   void store_contacts() override;
+  void check_images() const;
   void before_storing() override;
   void add_counts(double *) override;
   bool stores_alone() const override;

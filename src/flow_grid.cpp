@@ -47,6 +47,7 @@ FlowGrid::FlowGrid(LAMMPS *lmp, const std::string &path_in, const Options &optio
   attempt([this] {
     times = file->times();
     known_distance = file->has("distance");
+    digest.add(&known_distance, 1);
     // before the box is compared with a grid that may not be that of the arrays
     file->check("velocity", 3);
     if (known_distance) file->check("distance", 1);
@@ -60,13 +61,11 @@ FlowGrid::FlowGrid(LAMMPS *lmp, const std::string &path_in, const Options &optio
 
   make_lattice(options.clamp, "; keyword outside clamp continues it");
   if (known_distance)
-    attempt(
-        [this] {
-          distance = nodes_of(file->read("distance", 1, 0, layers()), 1);
-          if (*std::max_element(distance.begin(), distance.end()) <= 0.0)
-            throw std::runtime_error("array distance is > 0 nowhere: it must be so in the fluid");
-        },
-        image.nodes());
+    attempt([this] {
+      distance = nodes_of(read("distance", 1), 1);
+      if (*std::max_element(distance.begin(), distance.end()) <= 0.0)
+        throw std::runtime_error("array distance is > 0 nowhere: it must be so in the fluid");
+    });
   warn_of_doubts();
   if (series()) now = times.front();
   require(detail);
@@ -137,16 +136,14 @@ void FlowGrid::check_repeated(const std::vector<double> &u)
 void FlowGrid::load(int frame)
 {
   const int slot = frame % 2;
-  attempt(
-      [&] {
-        const auto values = file->read("velocity", 3, frame, layers());
-        check_repeated(values);
-        auto velocity = nodes_of(values, 3);
-        if (known_distance && options.reconstruct)
-          apf::WallExtension(lattice, distance, velocity).fill();
-        apf::write_records(lattice, detail, velocity, distance, numbers.data() + slot * size);
-      },
-      3 * image.nodes());
+  attempt([&] {
+    const auto values = read("velocity", 3, frame);
+    check_repeated(values);
+    auto velocity = nodes_of(values, 3);
+    if (known_distance && options.reconstruct)
+      apf::WallExtension(lattice, distance, velocity).fill();
+    apf::write_records(lattice, detail, velocity, distance, numbers.data() + slot * size);
+  });
   frame_in[slot] = frame;
 }
 

@@ -6,8 +6,8 @@
 #include "fix.h"
 #include "modify.h"
 #include "particle_checks.h"
-#include "read_guard.h"
 
+#include <climits>
 #include <cmath>
 #include <stdexcept>
 
@@ -22,20 +22,21 @@ GridFile::GridFile(LAMMPS *lmp, const char *command_in, const std::string &path_
 {
   check_orthogonal(lmp, command + " file requires", iarg);
   attempt([this] {
-    file = std::make_unique<apf::VtkhdfFile>(path);
+    file = std::make_unique<apf::VtkhdfFile>(path, command + " file " + path);
     image = file->grid();
+    digest.add(image.n, 3).add(image.origin, 3).add(image.spacing, 3);
+    digest.add(file->times().data(), file->times().size());
   });
   MPI_Bcast(&image, sizeof(image), MPI_BYTE, 0, world);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void GridFile::attempt(const std::function<void()> &work, std::size_t count) const
+void GridFile::attempt(const std::function<void()> &work)
 {
   numbers.synchronize();
   std::string text;
   if (numbers.writer()) {
-    const ReadGuard guard(command + " file " + path, count);
     try {
       work();
     } catch (const std::bad_alloc &) {
@@ -45,14 +46,36 @@ void GridFile::attempt(const std::function<void()> &work, std::size_t count) con
     }
   }
   numbers.synchronize();
-  int first = text.empty() ? comm->nprocs : comm->me;
-  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, world);
-  if (first == comm->nprocs) return;
+  // the lowest rank that failed; the least and the largest of what those who read have seen
+  const auto seen = static_cast<long long>(digest.value() >> 1);    // >= 0
+  long long lowest[3] = {text.empty() ? comm->nprocs : comm->me, LLONG_MAX, LLONG_MAX};
+  if (numbers.writer()) {
+    lowest[1] = seen;
+    lowest[2] = -seen;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, lowest, 3, MPI_LONG_LONG, MPI_MIN, world);
+  const int first = lowest[0];
+  if (first == comm->nprocs) {
+    if (lowest[1] == -lowest[2]) return;
+    error->all(FLERR, position,
+               "{} file {}: the nodes of this machine have different files of this name, which one "
+               "rank of each node reads",
+               command, path);
+  }
   int length = text.size();
   MPI_Bcast(&length, 1, MPI_INT, first, world);
   text.resize(length);
   MPI_Bcast(text.data(), length, MPI_CHAR, first, world);
   error->all(FLERR, position, "{} file {}: {}", command, path, text);
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<double> GridFile::read(const std::string &array, int components, int frame)
+{
+  auto values = file->read(array, components, frame, layers());
+  if (numbers.ranks() < comm->nprocs) digest.add(values.data(), values.size());
+  return values;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 
 #include "node_memory.h"
 #include "pointers.h"
+#include "word_hash.h"
 
 #include "flow/lattice.h"
 #include "flow/vtkhdf_file.h"
@@ -36,10 +37,13 @@ class GridFile : protected Pointers {
   NodeMemory numbers;
   apf::ImageGrid image{};
   apf::Lattice lattice{};
+  WordHash digest;    // of what this rank has read from the file, to be compared with other nodes
 
-  // Lets the ranks that read do so; an error of one of them is one of all. count: of the numbers
-  // that they read.
-  void attempt(const std::function<void()> &work, std::size_t count = 0) const;
+  // Lets the ranks that read do so; an error of one of them is one of all, and so is a node that
+  // has read something else than the others.
+  void attempt(const std::function<void()> &work);
+  // what such work may call: the numbers of an array
+  std::vector<double> read(const std::string &array, int components, int frame = 0);
   // Memory for so many numbers. Errors if there is not enough.
   void allocate(std::size_t count);
   // The lattice of the file in the box, which it must cover unless it may be continued; advice:

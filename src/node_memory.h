@@ -24,6 +24,7 @@ class NodeMemory {
   void synchronize() const;            // what was read and written before is done after
 
   bool writer() const { return me == 0; }
+  int ranks() const { return nprocs; }    // of this node
   double *data() const { return numbers; }
   std::size_t bytes() const { return writer() ? size * sizeof(double) : 0; }
 

@@ -1,6 +1,7 @@
 #include "pair_bridges.h"
 
 #include "atom.h"
+#include "box_images.h"
 #include "domain.h"
 #include "fix_contact_history.h"
 #include "force.h"
@@ -36,12 +37,13 @@ void PairBridges::begin_list()
   unsettled.clear();
 }
 
-void PairBridges::add_candidate(int i, int j)
+void PairBridges::add_candidate(int i, int j, const NearestImages &images)
 {
   const int k = meetings.add(i, j, forming_distance(i, j));
   unsettled.push_back(0);
   const auto memory = store->find_bridge(i, atom->tag[j]);
   if (!memory || !pair->coeff_of(i, j).bridge.present()) return;
+  if (!images.nearest(atom->x[i], atom->x[j])) return;
   list.add(i, j, k, number_of_kind(i, j), *memory, false);
   meetings.closed[k] = 1;
   store->count_anew();

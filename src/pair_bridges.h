@@ -23,7 +23,7 @@ class PairBridges : protected Pointers {
 
   // a new neighbour list: its pairs one after another, in the order of the pair style's candidates
   void begin_list();
-  void add_candidate(int i, int j);
+  void add_candidate(int i, int j, const class NearestImages &images);
 
   // bridges form; all: of all pairs, or of those near each other. step: since the last look
   void detect(bool all, double step);

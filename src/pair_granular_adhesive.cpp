@@ -5,6 +5,7 @@
 
 #include "atom.h"
 #include "atom_rows.h"
+#include "box_images.h"
 #include "comm.h"
 #include "contact/jump.h"
 #include "fix_contact_history.h"
@@ -250,6 +251,8 @@ void PairGranularAdhesive::build_candidates()
 {
   const double *radius = atom->radius;
   const tagint *tag = atom->tag;
+  const double *const *x = atom->x;
+  const NearestImages images(domain);
   candidates.clear();
   contacts.clear();
   if (update->setupflag && store->keeps_liquid()) store->end_lost_bridges();
@@ -268,8 +271,8 @@ void PairGranularAdhesive::build_candidates()
     const int j = jmasked & NEIGHMASK;
     const int k = candidates.add(i, j, radius[i] + radius[j]);
     const auto history = store->find(i, tag[j]);
-    if (history) close(k, *history);
-    if (wet) bridges.add_candidate(i, j);
+    if (history && images.nearest(x[i], x[j])) close(k, *history);
+    if (wet) bridges.add_candidate(i, j, images);
   };
   // First pairs of a few particles, then their second ones, and so on: contacts that share a body
   // are not next to each other, where each would wait for the load that the one before puts on it.
@@ -298,6 +301,7 @@ void PairGranularAdhesive::build_candidates()
 void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
 {
   const int i = candidates.i[k], j = candidates.j[k];
+  if (atom->tag[i] == atom->tag[j]) store->refuse_images(i, atom->tag[j]);
   const int added = contacts.add(i, j, k, number_of_kind(i, j), history);
   contacts.set_crowding(added, bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0));
   candidates.closed[k] = 1;

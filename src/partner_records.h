@@ -75,6 +75,15 @@ template <class Memory> class PartnerRecords {
     return sum;
   }
 
+  // a partner with whom atom i has more than one record; 0 if there is none
+  tagint repeated(int i) const
+  {
+    for (int n = last[i]; n != none; n = before(n))
+      for (int m = before(n); m != none; m = before(m))
+        if (partner_of(m) == partner_of(n)) return partner_of(n);
+    return 0;
+  }
+
   void copy(int from, int to) { last[to] = last[from]; }
 
   // drops what is not kept by keep(partner's ID, memory as i sees it)

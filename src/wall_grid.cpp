@@ -4,12 +4,14 @@
 #include "domain.h"
 #include "error.h"
 #include "math_extra.h"
+#include "restart_state.h"
 
 #include "wall/isosurface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 using namespace LAMMPS_NS;
 
@@ -37,14 +39,11 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
   reaches.assign(pieces.size(), -std::numeric_limits<double>::infinity());
   jumps.assign(pieces.size(), {});
   for (size_t n = 0; n < pieces.size(); n++)
-    attempt(
-        [&] {
-          const auto nodes = nodes_of(file->read(pieces[n], 1, 0, layers()), 1);
-          jumps[n] =
-              apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
-          reaches[n] = *std::max_element(nodes.begin(), nodes.end());
-        },
-        image.nodes());
+    attempt([&] {
+      const auto nodes = nodes_of(read(pieces[n], 1), 1);
+      jumps[n] = apf::GridDistance::write_coefficients(lattice, nodes, numbers.data() + n * size);
+      reaches[n] = *std::max_element(nodes.begin(), nodes.end());
+    });
   MPI_Allreduce(MPI_IN_PLACE, reaches.data(), reaches.size(), MPI_DOUBLE, MPI_MAX, world);
   MPI_Allreduce(MPI_IN_PLACE, jumps.data(), 3 * jumps.size(), MPI_DOUBLE, MPI_MAX, world);
   for (size_t n = 0; n < pieces.size(); n++)
@@ -59,7 +58,7 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
 
 void WallGrid::choose(const std::vector<std::string> &wanted, int most)
 {
-  std::string list;    // with a blank behind each name
+  std::string list;    // with a zero behind each name
   attempt([&] {
     auto names = wanted;
     if (names.empty()) {
@@ -68,13 +67,21 @@ void WallGrid::choose(const std::vector<std::string> &wanted, int most)
       std::sort(names.begin(), names.end());
     }
     if (names.empty()) names.push_back("distance");
-    for (const auto &name : names) list += name + " ";
+    for (const auto &name : names) {
+      for (const char c : name)
+        if (!is_printable(c) || c == ' ')
+          throw std::runtime_error("names of arrays must be of ASCII without blanks, got \"" +
+                                   name + "\"");
+      list += name + '\0';
+    }
+    digest.add(list.data(), list.size());
   });
   int length = list.size();
   MPI_Bcast(&length, 1, MPI_INT, 0, world);
   list.resize(length);
   MPI_Bcast(list.data(), length, MPI_CHAR, 0, world);
-  pieces = utils::split_words(list);
+  for (size_t at = 0; at < list.size(); at += pieces.back().size() + 1)
+    pieces.emplace_back(list.c_str() + at);
   if (static_cast<int>(pieces.size()) > most)
     error->all(FLERR, position, "{} file {}: it holds {} arrays {}*, at most {} are allowed",
                command, path, pieces.size(), prefix, most);

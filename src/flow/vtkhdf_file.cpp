@@ -1,14 +1,18 @@
 #include "vtkhdf_file.h"
 
 #include "hdf5_input.h"
+#include "read_guard.h"
 #include "regular_file.h"
 
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <utility>
+
+#include <sys/stat.h>
 
 namespace apf {
 
@@ -23,13 +27,32 @@ namespace {
   // Beyond anything physical, and beyond the largest float, which some programs write where there
   // is no fluid. Squares are numbers yet, so are sums of splines.
   constexpr double largest_value = 1e100;
+  constexpr std::size_t most_told = 50;    // names in an error
+
+  // What differs once a file was written to: its size, when it was written, and when anything of it
+  // was changed, which no program sets back; none of a file that is not there.
+  std::array<long long, 4> stamp_of(const std::string &path)
+  {
+    struct stat now {};
+    if (stat(path.c_str(), &now) != 0) return {};
+    std::error_code none;
+    const auto written = std::filesystem::last_write_time(path, none);
+#ifdef __linux__
+    const long long nanoseconds = now.st_ctim.tv_nsec;
+#else
+    const long long nanoseconds = 0;
+#endif
+    return {now.st_size, written.time_since_epoch().count(), now.st_ctime, nanoseconds};
+  }
 
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
 
-VtkhdfFile::VtkhdfFile(const std::string &path_in) : path(path_in)
+VtkhdfFile::VtkhdfFile(const std::string &path_in, const std::string &called_in) :
+    path(path_in), called(called_in.empty() ? path_in : called_in)
 {
+  const ReadGuard guard(called);
   const Quiet quiet;
   try {
     open();
@@ -43,6 +66,7 @@ VtkhdfFile::VtkhdfFile(const std::string &path_in) : path(path_in)
 
 VtkhdfFile::~VtkhdfFile()
 {
+  const ReadGuard guard(called);
   close();
 }
 
@@ -65,15 +89,14 @@ void VtkhdfFile::open()
   hsize_t bytes = 0;
   if (file < 0 || H5Fget_filesize(file, &bytes) < 0 || std::filesystem::file_size(path) < bytes)
     fail("is a damaged or truncated HDF5 file");
-  written = std::filesystem::last_write_time(path);
+  stamp = stamp_of(path);
 }
 
 // A file that was removed is still there for those who have it open.
 void VtkhdfFile::check_unchanged() const
 {
-  std::error_code gone;
-  const auto now = std::filesystem::last_write_time(path, gone);
-  if (!gone && now != written) fail("was changed after it had been opened");
+  const auto now = stamp_of(path), gone = decltype(now){};
+  if (now != gone && now != stamp) fail("was changed after it had been opened");
 }
 
 void VtkhdfFile::read_grid()
@@ -155,21 +178,28 @@ void VtkhdfFile::read_steps()
 
 bool VtkhdfFile::has(const std::string &array) const
 {
+  const ReadGuard guard(called);
   const Quiet quiet;
   return exists(points, array.c_str());
 }
 
 std::vector<std::string> VtkhdfFile::arrays() const
 {
-  std::vector<std::string> names;
-  H5G_info_t info;
-  if (H5Gget_info(points, &info) < 0) return names;
-  for (hsize_t k = 0; k < info.nlinks && k < 50; k++) {
-    char name[64] = "";
-    H5Lget_name_by_idx(points, ".", H5_INDEX_NAME, H5_ITER_INC, k, name, sizeof(name), H5P_DEFAULT);
-    names.push_back(name);
-  }
-  return names;
+  const ReadGuard guard(called);
+  const Quiet quiet;
+  return names();
+}
+
+std::vector<std::string> VtkhdfFile::names() const
+{
+  std::vector<std::string> all;
+  const auto add = [](hid_t, const char *name, const H5L_info_t *, void *to) -> herr_t {
+    static_cast<std::vector<std::string> *>(to)->emplace_back(name);
+    return 0;
+  };
+  if (H5Literate(points, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &all) < 0)
+    fail("cannot read the names of its point arrays: the file is damaged");
+  return all;
 }
 
 // Where a frame is along the array's dimension of time: the file may let frames share data.
@@ -228,8 +258,10 @@ std::int64_t VtkhdfFile::find(const std::string &array) const
 {
   check_unchanged();
   if (exists(points, array.c_str())) return open_array(points, array, "array " + array);
+  const auto all = names();
   std::string list;
-  for (const auto &name : arrays()) list += " " + name;
+  for (std::size_t k = 0; k < all.size() && k < most_told; k++) list += " " + all[k];
+  if (all.size() > most_told) list += " and " + std::to_string(all.size() - most_told) + " more";
   fail("has no point array " + array + "; it has" + (list.empty() ? " none" : list));
 }
 
@@ -247,6 +279,7 @@ VtkhdfFile::Shape VtkhdfFile::checked(std::int64_t data, const std::string &arra
 
 void VtkhdfFile::check(const std::string &array, int components) const
 {
+  const ReadGuard guard(called);
   const Quiet quiet;
   const Handle data(find(array), H5Dclose);
   checked(data, array, components, 0);
@@ -255,6 +288,7 @@ void VtkhdfFile::check(const std::string &array, int components) const
 std::vector<double> VtkhdfFile::read(const std::string &array, int components, int frame,
                                      int layers) const
 {
+  const ReadGuard guard(called, image.nodes() * components);
   const Quiet quiet;
   const Handle data(find(array), H5Dclose), space(H5Dget_space(data), H5Sclose);
   const Shape part = checked(data, array, components, frame);

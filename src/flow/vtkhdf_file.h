@@ -6,9 +6,9 @@
 #ifndef APF_VTKHDF_FILE_H
 #define APF_VTKHDF_FILE_H
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,7 +24,8 @@ struct ImageGrid {
 
 class VtkhdfFile {
  public:
-  explicit VtkhdfFile(const std::string &path);
+  // called: what names the file where HDF5 crashes or does not end; default its path
+  explicit VtkhdfFile(const std::string &path, const std::string &called = "");
   ~VtkhdfFile();
   VtkhdfFile(const VtkhdfFile &) = delete;
   VtkhdfFile &operator=(const VtkhdfFile &) = delete;
@@ -33,7 +34,7 @@ class VtkhdfFile {
   // of the frames of a series, ascending; empty if the file is steady     [time]
   const std::vector<double> &times() const { return step_times; }
   bool has(const std::string &array) const;
-  std::vector<std::string> arrays() const;    // names of all point arrays
+  std::vector<std::string> arrays() const;    // names of all point arrays, ascending
 
   // That an array is there, of float or double with so many components at each node of grid().
   void check(const std::string &array, int components) const;
@@ -49,14 +50,15 @@ class VtkhdfFile {
     std::uint64_t offset = 0;               // of the frame, along time
   };
 
-  std::string path;
-  std::filesystem::file_time_type written{};    // when the file was changed last, as it was opened
-  std::int64_t file = -1, points = -1;          // of HDF5: the file, its group PointData
+  std::string path, called;
+  std::array<long long, 4> stamp{};       // of the file as it was opened
+  std::int64_t file = -1, points = -1;    // of HDF5: the file, its group PointData
   ImageGrid image;
   std::vector<double> step_times;
   std::size_t nsteps = 0;    // of group Steps, 0 without it
 
   void open();
+  std::vector<std::string> names() const;
   void check_unchanged() const;
   void close();
   void read_grid();

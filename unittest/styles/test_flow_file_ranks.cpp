@@ -119,6 +119,53 @@ TEST(RanksFlowFile, every_node_has_a_copy)
   }
 }
 
+// Each node reads the file from where it finds it, as a disk of its own.
+TEST(RanksFlowFile, nodes_with_other_files_are_refused)
+{
+  int me, ranks;
+  MPI_Comm_rank(MPI_COMM_WORLD, &me);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const SmallNodes nodes(1);
+  struct Contents {
+    double spacing, end, speed;
+    bool distance;
+  };
+  const auto error_where_the_last_node_has = [&](const Contents &last) {
+    const auto write = [](const TemporaryFile &file, const Contents &what) {
+      file.write({3, 3, 3}, {0, 0, 0}, {what.spacing, 5, 5}, [&](VtkhdfWriter &w) {
+        const std::vector<double> times = {0.0, 0.1, what.end};
+        w.steps(times);
+        w.field(
+            "velocity", 3,
+            [&](const double *x, double t, double *u) {
+              u[0] = x[0] == 0.0 && t == what.end ? what.speed : 1.0;
+            },
+            times);
+        if (what.distance)
+          w.field("distance", 1, [](const double *x, double, double *s) {
+            s[0] = x[1] + 1.0;
+          });
+      });
+    };
+    const TemporaryFile first("apf_first_node"), other("apf_last_node");
+    write(first, {5, 0.3, 1.0, true});
+    write(other, last);
+    Simulation sim;
+    return sim.error_of(many() + "fix flow all flow/field file " +
+                        (me == ranks - 1 ? other : first).path + " outside clamp" + fluid +
+                        "fix drag all flow/force flow drag stokes\nrun 25");
+  };
+  EXPECT_EQ(error_where_the_last_node_has({5, 0.3, 1.0, true}), "");
+  if (ranks == 1) return;
+  for (const Contents &last : {Contents{6, 0.3, 1.0, true}, Contents{5, 0.35, 1.0, true},
+                               Contents{5, 0.3, 1.5, true}, Contents{5, 0.3, 1.0, false}}) {
+    const auto error = error_where_the_last_node_has(last);
+    EXPECT_NE(error.find("the nodes of this machine have different files of this name"),
+              std::string::npos)
+        << error;
+  }
+}
+
 TEST(RanksFlowFile, errors_of_files_are_those_of_all_ranks)
 {
   Simulation sim;

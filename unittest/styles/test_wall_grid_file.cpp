@@ -303,6 +303,34 @@ TEST(WallGridFile, pieces_are_zones)
     EXPECT_NEAR(scene.sim.value("f_wall[" + std::to_string(row) + "][13]") / (2.0 * pi), 1.0, 1e-3);
 }
 
+// All pieces are taken, whatever else is in the file, each once.
+TEST(WallGridFile, pieces_among_many_arrays)
+{
+  std::map<std::string, Shape> arrays = {{"distance_left", plane(1, 0, 0, 0.5)},
+                                         {"distance_right", plane(-1, 0, 0, -7.5)}};
+  for (int k = 0; k < 60; k++) arrays["a" + std::to_string(k)] = circle;
+  const std::string longest = "distance_" + std::string(200, 'z');
+  arrays[longest] = plane(0, 1, 0, 0.5);
+  GridScene scene(2, 0.4, arrays, {{0.99, 4.0, 0.0}, {7.01, 4.0, 0.0}, {4.0, 0.99, 0.0}}, jkr);
+  scene.sim.run("run 0");
+  for (const int row : {1, 2, 3})
+    EXPECT_EQ(scene.sim.value("f_wall[" + std::to_string(row) + "][8]"), 1.0) << "attached";
+}
+
+TEST(WallGridFile, names_that_are_no_words_are_refused)
+{
+  for (const std::string name : {"distance_left distance_left", "distance_\n", "distance_\xfc"})
+    try {
+      GridScene scene(2, 0.4, {{"distance_left", plane(1, 0, 0, 0.5)}, {name, circle}},
+                      {{3.0, 3.0, 0.0}}, jkr);
+      ADD_FAILURE() << "accepted: " << name;
+    } catch (const std::runtime_error &error) {
+      EXPECT_NE(std::string(error.what()).find("must be of ASCII without blanks, got \"" + name),
+                std::string::npos)
+          << error.what();
+    }
+}
+
 // In pictures a sphere of twice the radius covers four times as many pixels, a circle twice as
 // many.
 TEST(WallGridFile, is_drawn_in_pictures)

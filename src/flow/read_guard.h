@@ -4,24 +4,24 @@
 // its thread has had more time of the processor than the work is worth, the program ends with such
 // a line and status 1. One at a time.
 
-#ifndef LMP_READ_GUARD_H
-#define LMP_READ_GUARD_H
+#ifndef APF_READ_GUARD_H
+#define APF_READ_GUARD_H
 
 #include <cstddef>
 #include <string>
 
-namespace LAMMPS_NS {
+namespace apf {
 
 class ReadGuard {
  public:
   // what: of both lines' beginning, as "Fix flow/field file air.vtkhdf"; numbers: how many the work
   // reads from the file, 0 if it looks at names and attributes only
-  ReadGuard(const std::string &what, std::size_t numbers);
+  explicit ReadGuard(const std::string &what, std::size_t numbers = 0);
   ~ReadGuard();
   ReadGuard(const ReadGuard &) = delete;
   ReadGuard &operator=(const ReadGuard &) = delete;
 };
 
-}    // namespace LAMMPS_NS
+}    // namespace apf
 
 #endif

@@ -1,0 +1,131 @@
+// Boxes so thin along a periodic axis that the neighbour list holds several images of a pair, while
+// one of them at most can touch: springs and bridges are those of a box in which there is one image.
+// Where two touch at once there is an error.
+
+#include "scenes.h"
+
+#include <array>
+
+namespace {
+
+// A chain of three spheres that turns, slides and rolls while it flies through the thin direction
+// eight times; a fourth one meets it.
+struct Flight {
+  double thickness, skin;
+  std::string law, integrator;
+  std::string newton = "on";
+
+  void start(Simulation &sim) const
+  {
+    Scene scene;
+    scene.newton = newton;
+    scene.processors = "* * 1";
+    scene.box = "0 8 0 8 0 " + digits(thickness);
+    scene.style = pair_of(law);
+    build(sim, {{3.0, 4.0, 0.5}, {3.75, 4.0, 1.125}, {4.5, 4.0, 0.5}, {6.5, 4.25, 0.75}}, scene);
+    const std::vector<std::array<double, 6>> motions = {{32, 0, 150, 0, 60, 20},
+                                                        {32, 0, 150, 0, 20, 0},
+                                                        {32, 0, 150, 30, -40, 0},
+                                                        {0, 0, 150, 0, 0, 0}};
+    for (int n = 0; n < 4; n++)
+      set_motion(sim, n + 1, {motions[n][0], motions[n][1], motions[n][2]},
+                 {motions[n][3], motions[n][4], motions[n][5]});
+    sim.run("neighbor " + digits(skin) + " bin\n" + integrator +
+            "compute agg all aggregate/contact\ncompute liquid all reduce sum c_agg[6]\n"
+            "thermo_style custom step c_liquid c_agg[1]\n");
+  }
+};
+
+struct Outcome {
+  std::vector<double> motion, loads;
+  double liquid_before, liquid, stuck;    // particles in aggregates
+};
+
+Outcome outcome_of(const Flight &flight, const std::string &run)
+{
+  Simulation sim;
+  flight.start(sim);
+  sim.run("run 0 post no");
+  const double before = sim.value("c_liquid");
+  sim.run(run);
+  Outcome outcome{gather(sim, "v"), gather(sim, "f"), before, sim.value("c_liquid"),
+                  sim.value("c_agg[1]")};
+  for (const char *name : {"omega", "torque"}) {
+    auto &to = name[0] == 'o' ? outcome.motion : outcome.loads;
+    const auto more = gather(sim, name);
+    to.insert(to.end(), more.begin(), more.end());
+  }
+  return outcome;
+}
+
+// collision steps: 2048 of 2^-15, in which the chain flies 9.4 diameters
+const std::vector<std::array<std::string, 2>> integrators = {
+    {"fix nve all nve/sphere\ntimestep 3.0517578125e-5\n", "run 2048"},
+    {"fix nve all nve/sphere\ntimestep 1.220703125e-4\nrun_style respa 2 4 pair 1\n", "run 512"},
+    {mts(4, 3.0517578125e-5), "run 512"}};
+
+const std::string dry = jkr + "damping tsuji 0.1" + all_friction;
+const std::string liquid = jkr +
+    "damping tsuji 0.1 sliding 0.3 rolling 0.02 bridge 0.02 40.0 10 "
+    "0.01 tangential yes inventory 0.3";
+
+void expect_flight_of_a_thick_box(const std::string &law, double thickness)
+{
+  for (const auto &[integrator, run] : integrators)
+    for (const std::string newton : {"on", "off"}) {
+      if (law == liquid && newton == "off") continue;    // an inventory needs it
+      SCOPED_TRACE(integrator + newton);
+      const auto thick = outcome_of({8.0, 0.5, law, integrator, newton}, run);
+      EXPECT_EQ(thick.stuck, 4.0) << "the fourth one has met the others";
+      for (const double skin : {0.5, 2.0, 4.0}) {
+        const auto thin = outcome_of({thickness, skin, law, integrator, newton}, run);
+        EXPECT_EQ(thin.stuck, 4.0);
+        EXPECT_LT(difference(thin.motion, thick.motion), 1e-8) << "skin " << skin;
+        EXPECT_LT(difference(thin.loads, thick.loads), 1e-6) << "skin " << skin;
+        EXPECT_NEAR(thin.liquid, thin.liquid_before, 1e-12 * thick.liquid_before);
+        EXPECT_NEAR(thin.liquid, thick.liquid, 1e-12 * thick.liquid);
+      }
+    }
+}
+
+}    // namespace
+
+TEST(RanksThinBoxes, springs_are_those_of_a_thick_box)
+{
+  for (const double thickness : {2.125, 3.0}) expect_flight_of_a_thick_box(dry, thickness);
+}
+
+TEST(RanksThinBoxes, bridges_are_those_of_a_thick_box)
+{
+  expect_flight_of_a_thick_box(liquid, 3.0);
+}
+
+// once the list is built anew, whose contacts are found again by ID
+TEST(ThinBoxes, two_images_at_once_are_refused)
+{
+  const auto error_of = [](double thickness, const std::string &law, const std::string &newton,
+                           const std::vector<Sphere> &spheres) {
+    Scene scene;
+    scene.newton = newton;
+    scene.processors = "* * 1";
+    scene.box = "0 8 0 8 0 " + digits(thickness);
+    scene.style = pair_of(law);
+    Simulation sim;
+    build(sim, spheres, scene);
+    return sim.error_of("fix nve all nve/sphere\ntimestep 1e-6\nneigh_modify delay 0 every 1 check "
+                        "no\nrun 10");
+  };
+  const auto expect_refused = [](const std::string &said, const std::string &what) {
+    EXPECT_NE(said.find("particle "), std::string::npos) << said;
+    EXPECT_NE(said.find(what + " through two faces of the box at once"), std::string::npos) << said;
+  };
+  for (const std::string newton : {"on", "off"}) {
+    for (const auto &law : {dry, std::string(jkr)}) {
+      expect_refused(error_of(0.99, law, newton, {{3.0, 4.0, 0.5}}), "touches itself");
+      const auto pair = error_of(1.5, law, newton, {{3.0, 4.0, 0.25}, {3.6, 4.0, 1.0}});
+      expect_refused(
+          pair, pair.find("particle 1 ") < pair.npos ? "touches particle 2" : "touches particle 1");
+    }
+    EXPECT_EQ(error_of(1.5, dry, newton, {{3.0, 4.0, 0.25}, {3.9, 4.0, 0.4}}), "") << "one of them";
+  }
+}
