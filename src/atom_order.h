@@ -5,31 +5,9 @@
 #define APF_ATOM_ORDER_H
 
 #include "atom.h"
-
-#include <cstdint>
-#include <cstring>
+#include "word_hash.h"
 
 namespace LAMMPS_NS {
-
-// The hash FNV-1a, of words instead of bytes.
-class WordHash {
- public:
-  explicit WordHash(std::uint64_t first = 0) : now(first * prime) {}
-  template <class T> WordHash &add(const T *values, int n)
-  {
-    for (int i = 0; i < n; i++) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, &values[i], sizeof(T));
-      now = (now ^ word) * prime;
-    }
-    return *this;
-  }
-  bool operator==(const WordHash &other) const { return now == other.now; }
-
- private:
-  static constexpr std::uint64_t prime = 0x100000001b3;
-  std::uint64_t now;
-};
 
 // of owned atoms and ghosts
 class AtomOrder {

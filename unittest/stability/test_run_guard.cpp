@@ -83,6 +83,25 @@ TEST(RunGuard, changed_diameters_masses_and_types_are_refused)
     }
 }
 
+// Numbers of spheres and changes at which a weak hash takes other sizes for those of before.
+TEST(RunGuard, diameters_of_many_are_told_apart)
+{
+  for (const int n : {1024, 1631}) {
+    Scene scene;
+    scene.boundary = "f f f";
+    scene.box = "0 40 0 40 0 40";
+    Simulation sim;
+    build(sim, {}, scene);
+    std::vector<double> x;
+    for (int k = 0; k < n; k++)
+      x.insert(x.end(), {2.0 + 2.5 * (k % 14), 2.0 + 2.5 * (k / 14 % 14), 2.0 + 2.5 * (k / 196)});
+    add_spheres(sim, x, std::vector<double>(x.size(), 0.0));
+    sim.run(by_verlet + "thermo_style custom step\nrun 1");
+    const std::string said = sim.error_of("set group all diameter 2 density 1\nrun 1 pre no");
+    EXPECT_NE(said.find("has changed diameters, masses or types"), said.npos) << n << said;
+  }
+}
+
 // What others change, and does not go into what our styles know, is no reason to refuse.
 TEST(RunGuard, other_commands_between_runs_are_taken)
 {
