@@ -1,5 +1,5 @@
 // What contacts know of atoms by their numbers on this rank, and commands between runs may change:
-// which atom has which number, and diameters, masses and types.
+// which atom has which number, diameters, masses and types, and places.
 
 #ifndef APF_ATOM_ORDER_H
 #define APF_ATOM_ORDER_H
@@ -44,6 +44,23 @@ class AtomSizes {
   {
     const int n = atom->nlocal;
     return WordHash(n).add(atom->radius, n).add(atom->rmass, n).add(atom->type, n);
+  }
+};
+
+// of owned atoms
+class AtomPlaces {
+ public:
+  void note(const Atom *atom) { now = of(atom); }
+  bool hold(const Atom *atom) const { return now == of(atom); }
+
+ private:
+  WordHash now;
+
+  static WordHash of(const Atom *atom)
+  {
+    WordHash hash(atom->nlocal);
+    for (int i = 0; i < atom->nlocal; i++) hash.add(atom->x[i], 3);
+    return hash;
   }
 };
 

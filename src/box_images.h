@@ -35,8 +35,8 @@ inline void sum_of_box_vectors(const double *n, const double *h, double *sum)
   sum[2] = n[2] * h[2];
 }
 
-// Partners are remembered by their ID: where the box is thinner along a periodic axis than twice the
-// range of the neighbour list, that may hold two images of one.
+// Partners are remembered by their ID: where the box is thinner along a periodic axis than twice
+// the range of the neighbour list, that may hold two images of one.
 class NearestImages {
  public:
   explicit NearestImages(const Domain *domain) : domain(domain)

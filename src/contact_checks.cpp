@@ -60,6 +60,21 @@ void check_direction(LAMMPS *lmp, const std::string &who)
     lmp->error->all(FLERR, Error::NOLASTLINE, "{}: timestep must be >= 0, got {}", who, step);
 }
 
+void check_list_age(LAMMPS *lmp, const std::string &who)
+{
+  const Neighbor *lists = lmp->neighbor;
+  const bool kept = std::max(lists->every, lists->delay) > 1;
+  if (lmp->comm->me != 0 || (!kept && !lists->build_once)) return;
+  lmp->error->warning(
+      FLERR,
+      "{}: with neigh_modify delay {} every {} check {}{} the neighbor list may be built too late, "
+      "and particles meet or pass through each other unseen; use neigh_modify delay 0 every 1 "
+      "check "
+      "yes{}",
+      who, lists->delay, lists->every, lists->dist_check ? "yes" : "no",
+      lists->build_once ? " once yes" : "", lists->build_once ? " once no" : "");
+}
+
 bool has_rigid_bodies(LAMMPS *lmp)
 {
   // of its own: that of get_fix_list() is made anew, while fix dt/reset may go through it

@@ -33,6 +33,10 @@ bool has_rigid_bodies(LAMMPS *lmp);
 // of some of its styles lack the length of the box.
 void check_box_rates(LAMMPS *lmp, const std::string &who);
 
+// A warning where neigh_modify lets the neighbor list be older than one that shows all pairs that
+// meet. For steps that do not have it built themselves.
+void check_list_age(LAMMPS *lmp, const std::string &who);
+
 // A warning where the step is too large for the stiffest mode, with the step that would do.
 class TimestepCheck {
  public:

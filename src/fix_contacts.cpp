@@ -130,16 +130,39 @@ void FixContacts::require_lists()
                style, id);
 }
 
-// Before anything is done to atoms in a step.
 void FixContacts::initial_integrate(int /*vflag*/)
 {
-  if (!begins) return;
+  if (begins) require_unchanged();
   begins = false;
-  if (order.holds(atom) && !sizes.hold(atom))    // else another error tells
-    error->one(FLERR, Error::NOLASTLINE,
+}
+
+void FixContacts::require_unchanged()
+{
+  const bool first = comes_first();
+  if (first) guard.require_box(name());
+  int same[] = {order.holds(atom), sizes.hold(atom), !first || places.hold(atom)};
+  MPI_Allreduce(MPI_IN_PLACE, same, 3, MPI_INT, MPI_MIN, world);
+  if (!same[0]) return;    // another error tells
+  if (!same[1])
+    error->all(FLERR, Error::NOLASTLINE,
                "{}: a command since the last run has changed diameters, masses or types of atoms, "
                "and their laws were not found again: use run without pre no",
                name());
+  if (!same[2])
+    error->all(FLERR, Error::NOLASTLINE,
+               "{}: a command since the last run has moved atoms, and forces are those of where "
+               "they were: use run without pre no",
+               name());
+}
+
+bool FixContacts::comes_first() const
+{
+  if (keepers.front() != this) return false;
+  for (const auto &fix : modify->get_fix_list()) {
+    if (fix == this) break;
+    if (modify->get_fix_mask(fix) & INITIAL_INTEGRATE) return false;
+  }
+  return true;
 }
 
 std::string FixContacts::name() const
@@ -273,7 +296,11 @@ void FixContacts::post_run()
   if (keepers.front() == this) check_finite(lmp, name());
   pre_exchange();
   velocities.remember(atom, due_loads());
-  sizes.note(atom);
+  if (!begins || update->whichflag == 2) {    // else a run of no steps, which found nothing anew
+    sizes.note(atom);
+    places.note(atom);
+    guard.ended();
+  }
   begins = true;
   run_ended = true;
 }

@@ -156,8 +156,11 @@ class FixContacts : public Fix {
   bool registered = false;
   AtomOrder order;
   AtomSizes sizes;              // when the last run ended
+  AtomPlaces places;            // ...
   bool begins = false;          // the next step may be the first of a run without setup
   std::string name() const;     // for errors
+  void require_unchanged();     // an error where a command has changed atoms or the box; collective
+  bool comes_first() const;     // of keepers, and nothing has moved before it in a step
   bool run_ended = false;       // and no forces were computed since
   bool stored = true;           // no forces since contacts were stored
   apf::ContactTimes taken{};    // of the last forces

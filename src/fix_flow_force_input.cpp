@@ -228,7 +228,7 @@ void FixFlowForce::check_particles()
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(mask[i] & groupbit)) continue;
     const double r = radius[i];
-    if (!(r > 0.0)) points++;
+    if (r == 0.0) points++;
     if (r > 0.0)
       densest = MAX(densest, atom->rmass[i] / (4.0 / 3.0 * MathConst::MY_PI * r * r * r));
   }
@@ -237,6 +237,7 @@ void FixFlowForce::check_particles()
   if (points_all)
     error->all(FLERR, Error::NOLASTLINE,
                "Fix flow/force requires particles of radius > 0, got {} of radius 0", points_all);
+  TypeSizes::find(lmp, command, igroup);    // refuses sizes that are no numbers
 
   // the mass of a sphere whose diameter was set after its density is that of the old diameter
   double densest_all;

@@ -1,5 +1,6 @@
 #include "run_guard.h"
 
+#include "domain.h"
 #include "error.h"
 #include "fix.h"
 #include "modify.h"
@@ -28,6 +29,30 @@ void RunGuard::prepared()
   for (const auto &fix : modify->get_fix_list())
     if (!utils::strmatch(fix->style, "^MINIMIZE$"))    // it goes when the minimiser ends
       fixes.push_back({Numbered::instance(fix), fix->id});
+  box = box_now();
+}
+
+void RunGuard::ended()
+{
+  box = box_now();
+}
+
+std::vector<double> RunGuard::box_now() const
+{
+  std::vector<double> now = {domain->xy, domain->xz, domain->yz,
+                             static_cast<double>(domain->triclinic)};
+  for (int c = 0; c < 3; c++) {
+    now.insert(now.end(), {domain->boxlo[c], domain->boxhi[c]});
+    for (const int kind : domain->boundary[c]) now.push_back(kind);
+  }
+  return now;
+}
+
+void RunGuard::require_box(const std::string &who) const
+{
+  if (!box.empty() && box != box_now())
+    error->all(FLERR, Error::NOLASTLINE,
+               "{}: the box was changed since the last run: use run without pre no", who);
 }
 
 // Others' fixes that have come since do nothing in a run without setup, and harm nobody.
@@ -45,9 +70,13 @@ void RunGuard::require(const Fix *who) const
 {
   if (update->whichflag != 1 || update->setupflag) return;
   const std::string other = fixes.empty() ? "" : changed();
-  if (!fixes.empty() && other.empty()) return;
   const std::string name = who ? fmt::format("Fix {} {}", who->style, who->id)
                                : "Pair granular/adhesive";
+  if (!fixes.empty() && other.empty()) {
+    // what changes it within a run may have done so in this step
+    if (!domain->box_change) require_box(name);
+    return;
+  }
   if (fixes.empty())
     error->all(FLERR, Error::NOLASTLINE,
                "{} is new or has new coefficients since the last run: use run without pre no",

@@ -1,4 +1,5 @@
-// `run N pre no` prepares nothing: whether all fixes are those with which a run was prepared last.
+// `run N pre no` prepares nothing: whether all fixes are those with which a run was prepared last,
+// and the box is the one in which it ended.
 
 #ifndef APF_RUN_GUARD_H
 #define APF_RUN_GUARD_H
@@ -14,14 +15,20 @@ class RunGuard : protected Pointers {
  public:
   explicit RunGuard(LAMMPS *lmp) : Pointers(lmp) {}
 
-  // where a style is set up for a run, after its init(): it knows all fixes as they are
+  // where a style is set up for a run, after its init(): it knows all fixes, and the box, as they
+  // are
   void prepared();
+  // where a run ends, in which fixes and borders may have changed the box
+  void ended();
   // its coefficients are others: what was prepared is out of date
   void forget() { fixes.clear(); }
   // Before a style looks at what it knows of others: an error if fixes were made, replaced or taken
   // away since. LAMMPS's own lists of who acts when are out of date then, too.
   //   who   the error names it; nullptr: the pair style
   void require(const class Fix *who) const;
+  // Before anything has moved in a run's first step: an error if a command has changed the box
+  // since the last one.
+  void require_box(const std::string &who) const;
 
  private:
   struct Known {
@@ -31,6 +38,9 @@ class RunGuard : protected Pointers {
   std::vector<Known> fixes;
 
   std::string changed() const;
+
+  std::vector<double> box;    // its borders, tilt and boundaries; empty before they are known
+  std::vector<double> box_now() const;
 };
 
 }    // namespace LAMMPS_NS

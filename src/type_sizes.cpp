@@ -7,7 +7,9 @@
 #include "modify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -45,6 +47,23 @@ static double told(Fix *fix, int igroup, const char *name, int type)
   return value ? *value : 0.0;
 }
 
+// Laws divide by each of these.
+static void check_sizes(LAMMPS *lmp, const char *who, int i)
+{
+  const Atom *atom = lmp->atom;
+  for (const auto &[name, value] :
+       {std::pair{"radii", atom->radius[i]}, {"masses", atom->rmass[i]}}) {
+    if (value <= 0.0)
+      lmp->error->one(FLERR, Error::NOLASTLINE, "{} needs {} > 0, atom {} has {}", who, name,
+                      atom->tag[i], value);
+    if (!std::isfinite(value) || !std::isfinite(1.0 / value))
+      lmp->error->one(FLERR, Error::NOLASTLINE,
+                      "{} needs {} that are finite numbers, as are their reciprocals; atom {} has "
+                      "{}",
+                      who, name, atom->tag[i], value);
+  }
+}
+
 TypeSizes TypeSizes::find(LAMMPS *lmp, const char *who, int igroup)
 {
   const Atom *atom = lmp->atom;
@@ -53,9 +72,7 @@ TypeSizes TypeSizes::find(LAMMPS *lmp, const char *who, int igroup)
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & lmp->group->bitmask[igroup])) continue;
     const double r = atom->radius[i];
-    if (r <= 0.0)
-      lmp->error->one(FLERR, Error::NOLASTLINE, "{} needs radii > 0, atom {} has {}", who,
-                      atom->tag[i], r);
+    check_sizes(lmp, who, i);
     double *largest = &mine[3 * atom->type[i]];
     largest[0] = std::max(largest[0], r);
     largest[1] = std::max(largest[1], 1.0 / r);

@@ -19,7 +19,7 @@ struct TypeSizes {                               // [1..ntypes]; 0 for a type wi
   double smallest_mass() const;
 
   // Of the particles of a group and those that fixes insert into it; 0: all. Collective. An error
-  // where a radius is not > 0; who begins its text.
+  // where a radius or mass is not > 0 and finite, or its reciprocal is not; who begins its text.
   static TypeSizes find(LAMMPS *lmp, const char *who, int igroup = 0);
 };
 

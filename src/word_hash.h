@@ -1,5 +1,4 @@
-// The hash FNV-1a, of words instead of bytes, whose high bits are mixed into the low ones: doubles
-// that differ in their exponents only would leave nearly all bits alike.
+// A hash of words of up to 64 bits, to see whether numbers are the same as before.
 
 #ifndef APF_WORD_HASH_H
 #define APF_WORD_HASH_H
@@ -12,14 +11,13 @@ namespace LAMMPS_NS {
 
 class WordHash {
  public:
-  explicit WordHash(std::uint64_t first = 0) : now(first * prime) {}
+  explicit WordHash(std::uint64_t first = 0) { mix(first); }
   template <class T> WordHash &add(const T *values, std::size_t n)
   {
     for (std::size_t i = 0; i < n; i++) {
       std::uint64_t word = 0;
       std::memcpy(&word, &values[i], sizeof(T));
-      now = (now ^ word) * prime;
-      now ^= now >> 32;
+      mix(word);
     }
     return *this;
   }
@@ -27,8 +25,15 @@ class WordHash {
   bool operator==(const WordHash &other) const { return now == other.now; }
 
  private:
-  static constexpr std::uint64_t prime = 0x100000001b3;
-  std::uint64_t now;
+  std::uint64_t now = 1;
+
+  // Products carry differences upwards only, and doubles may differ in their exponents alone, which
+  // stand on top: the shift takes them down again.
+  void mix(std::uint64_t word)
+  {
+    now = (now ^ word) * 0x9E3779B97F4A7C15ull;
+    now ^= now >> 32;
+  }
 };
 
 }    // namespace LAMMPS_NS

@@ -6,6 +6,7 @@
 #include "atom.h"
 #include "update.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -142,6 +143,41 @@ TEST(BetweenRuns, particles_at_one_place_or_without_numbers_are_refused)
   build(sim, {{4.0, 4.0, 4.0}, {1.0, 1.0, 1.0}});
   sim.run(by_mts + "run 1\nset atom 2 vx 1e200");
   expect_error(sim, "run 1", "is no finite number for 1 particles (IDs 2)");
+}
+
+// What laws divide by: told with the value, by whatever style is there, and the run goes on when it
+// is mended.
+TEST(BetweenRuns, sizes_and_masses_that_laws_cannot_take_are_refused)
+{
+  const std::string wall = "fix w all wall/levelset plane x 0 NULL" + jkr + "\n";
+  const std::vector<std::pair<std::string, std::vector<std::string>>> changes = {
+      {"diameter v_inf", {"needs radii that are finite numbers", "atom 1 has inf"}},
+      {"diameter v_nan", {"needs radii that are finite numbers", "atom 1 has ", "nan"}},
+      {"density v_inf", {"needs masses that are finite numbers", "atom 1 has inf"}},
+      {"density v_nan", {"needs masses that are finite numbers", "atom 1 has ", "nan"}},
+      {"mass 1e-310", {"needs masses", "as are their reciprocals; atom 1 has 1e-310"}},
+      {"diameter 2e-310", {"needs radii", "as are their reciprocals; atom 1 has 1e-310"}}};
+  for (const auto &[who, style, integrator] :
+       {std::array<std::string, 3>{"Pair granular/adhesive", adhesive + wall, by_mts},
+        {"Pair granular/adhesive", adhesive, by_verlet},
+        {"Fix wall/levelset", wall, by_verlet},
+        {"Fix flow/force",
+         "fix air all flow/field uniform 0 0.1 0 density 1 viscosity 1\n"
+         "fix drag all flow/force air drag stokes\n",
+         by_verlet}})
+    for (const auto &[change, words] : changes) {
+      SCOPED_TRACE(who + change);
+      Scene scene = beside_a_wall();
+      scene.style = style;
+      Simulation sim;
+      build(sim, {{2.0, 4.0, 4.0}, {5.0, 4.0, 4.0}}, scene);
+      sim.run(integrator + "variable inf atom exp(1000)\nvariable nan atom exp(1000)-exp(1000)\n" +
+              "run 1\nset atom 1 " + change);
+      const std::string said = sim.error_of("run 1");
+      EXPECT_NE(said.find(who), said.npos) << said;
+      for (const auto &word : words) EXPECT_NE(said.find(word), said.npos) << said;
+      EXPECT_EQ(sim.error_of("set atom 1 diameter 1 density 1\nrun 1"), "");
+    }
 }
 
 // Comparisons pass over them, and no list is built: what a command made is told before the run,

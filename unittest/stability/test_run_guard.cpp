@@ -1,4 +1,5 @@
-// run pre no after commands that made, replaced or took away what styles know of each other.
+// run pre no after commands that made, replaced or took away what styles know of each other, or
+// changed the box or the atoms.
 
 #include "scenes.h"
 
@@ -83,12 +84,127 @@ TEST(RunGuard, changed_diameters_masses_and_types_are_refused)
     }
 }
 
+// Numbers of spheres and changes at which a weak hash takes other sizes for those of before.
+TEST(RunGuard, diameters_of_many_are_told_apart)
+{
+  for (const int n : {1024, 1631}) {
+    Scene scene;
+    scene.boundary = "f f f";
+    scene.box = "0 40 0 40 0 40";
+    Simulation sim;
+    build(sim, {}, scene);
+    std::vector<double> x;
+    for (int k = 0; k < n; k++)
+      x.insert(x.end(), {2.0 + 2.5 * (k % 14), 2.0 + 2.5 * (k / 14 % 14), 2.0 + 2.5 * (k / 196)});
+    add_spheres(sim, x, std::vector<double>(x.size(), 0.0));
+    sim.run(by_verlet + "thermo_style custom step\nrun 1");
+    const std::string said = sim.error_of("set group all diameter 2 density 1\nrun 1 pre no");
+    EXPECT_NE(said.find("has changed diameters, masses or types"), said.npos) << n << said;
+  }
+}
+
+// lists, images and grids are those of the box in which a run was set up
+TEST(RunGuard, a_box_that_a_command_changed_is_refused)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const std::string change :
+         {"y final 0 10", "z delta 0 -0.5 remap", "boundary f f p", "triclinic"}) {
+      SCOPED_TRACE(integrator + change);
+      Simulation sim;
+      dusty(sim, integrator);
+      const std::string said = sim.error_of("change_box all " + change + "\nrun 5 pre no");
+      EXPECT_NE(said.find("the box was changed since the last run"), said.npos) << said;
+      EXPECT_NE(said.find(asks), said.npos) << said;
+      if (change == "triclinic") continue;    // a concentration needs an orthogonal box
+      EXPECT_EQ(sim.error_of("run 5\nrun 5 pre no"), "");
+    }
+  // a run of no steps finds nothing anew, and so it is without contacts
+  for (const std::string &style : {adhesive, std::string()}) {
+    Scene scene;
+    scene.style = style +
+        "fix air all flow/field uniform 0 0.1 0 density 1 viscosity 1\n"
+        "fix drag all flow/force air drag stokes\n";
+    Simulation sim;
+    build(sim, {{2.0, 4.0, 4.0}, {2.998, 4.0, 4.0}}, scene);
+    sim.run(by_verlet + "run 5\nchange_box all y final 0 10\nrun 0 pre no");
+    const std::string said = sim.error_of("run 5 pre no");
+    EXPECT_NE(said.find("the box was changed since the last run"), said.npos) << said;
+  }
+}
+
+// but not one that a fix or a border that shrinks changes within a run
+TEST(RanksRunGuard, a_box_that_a_run_changed_is_taken)
+{
+  const std::string by_nph = "fix nve all nph/sphere iso 1 1 1\n", box = "lx+2*ly+4*lz+8*xy",
+                    deform = "fix d all deform ", shrinks = "shrinks", nothing = "nothing",
+                    go = "run 150 start 0 stop 600 pre ";
+  const std::vector<std::pair<std::string, std::string>> scenes = {
+      {by_mts, nothing},
+      {by_mts, shrinks},
+      {by_mts, deform + "1 y erate 2 remap v"},
+      {by_verlet, shrinks},
+      {by_verlet, deform + "1 y erate 2 remap v"},
+      {by_verlet, deform + "3 xy erate 1 remap v"},
+      {by_verlet, "fix p all press/berendsen iso 1 1 1 modulus 1000"},
+      {by_nph, nothing}};
+  for (const auto &[integrator, moves] : scenes) {
+    SCOPED_TRACE(integrator + moves);
+    Scene scene;
+    scene.boundary = moves == shrinks ? "p s s" : "p p p";
+    if (moves.find("xy") != moves.npos) scene.style += "change_box all triclinic\n";
+    Simulation sim;
+    build(sim, {{7.5, 4.0, 4.0}, {8.498, 4.0, 4.0}, {2.0, 2.0, 2.0}, {6.0, 6.0, 6.0}}, scene);
+    for (int id = 1; id <= 4; id++) set_motion(sim, id, {8.0, 4.0, id * 8.0}, {0.0, 0.0, 0.0});
+    if (moves.find("fix") == 0) sim.run(moves);
+    sim.run(integrator + "thermo_style custom step lx xy press\nneighbor 0.2 bin\n" + go + "yes");
+    const double before = sim.value(box);
+    EXPECT_EQ(sim.error_of(go + "no\nvelocity all set 0 1 0\n" + go + "no"), "");
+    EXPECT_EQ(sim.value(box) != before, moves != nothing || integrator == by_nph);
+    const std::string said = sim.error_of("change_box all y delta 0 0.5\n" + go + "no");
+    EXPECT_NE(said.find("the box was changed since the last run"), said.npos) << said;
+  }
+}
+
+// forces are those of where atoms were
+TEST(RunGuard, moved_atoms_are_refused)
+{
+  for (const std::string &integrator : {by_mts, by_verlet})
+    for (const std::string change :
+         {"set atom 2 x 1.4", "displace_atoms all move 0 1e-9 0",
+          "displace_atoms all move 0 0.3 0\nvelocity all set 0 0 0\nrun 0 pre no"}) {
+      SCOPED_TRACE(integrator + change);
+      Simulation sim;
+      build(sim, {{0.499, 4.0, 4.0}, {1.497, 4.0, 4.0}}, beside_a_wall());
+      sim.run(integrator + "run 5\nrun 5 pre no\n" + change);
+      const std::string said = sim.error_of("run 5 pre no");
+      EXPECT_NE(said.find("has moved atoms"), said.npos) << said;
+      EXPECT_NE(said.find(asks), said.npos) << said;
+      EXPECT_EQ(sim.error_of("run 5\nrun 5 pre no"), "");
+    }
+}
+
+// An integrator that was given before the contacts has moved atoms when these look at them.
+TEST(RunGuard, an_integrator_before_the_pair_style_is_taken)
+{
+  for (const std::string &wall :
+       {std::string(), "fix w all wall/levelset plane x 0 NULL" + jkr + "\n"}) {
+    Scene scene;
+    scene.boundary = "f p p";
+    scene.style = by_verlet + adhesive + wall;
+    Simulation sim;
+    build(sim, {{0.499, 4.0, 4.0}, {1.497, 4.0, 4.0}}, scene);
+    sim.run("velocity all set 0 1 0\nrun 5\nrun 5 pre no");
+    EXPECT_EQ(sim.error_of("run 5 pre no"), "");
+  }
+}
+
 // What others change, and does not go into what our styles know, is no reason to refuse.
 TEST(RunGuard, other_commands_between_runs_are_taken)
 {
   for (const std::string &integrator : {by_mts, by_verlet})
     for (const std::string change :
-         {"fix out all print 1000 hello", "velocity all set 0.1 0 0", "compute ke all ke"}) {
+         {"fix out all print 1000 hello", "velocity all set 0.1 0 0", "compute ke all ke",
+          "set atom 1 vx 0.1 omega 0 0 1", "run 0 pre no"}) {
       SCOPED_TRACE(change);
       Simulation sim;
       dusty(sim, integrator);

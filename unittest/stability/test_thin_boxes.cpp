@@ -1,6 +1,6 @@
 // Boxes so thin along a periodic axis that the neighbour list holds several images of a pair, while
-// one of them at most can touch: springs and bridges are those of a box in which there is one image.
-// Where two touch at once there is an error.
+// one of them at most can touch: springs and bridges are those of a box in which there is one
+// image. Where two touch at once there is an error.
 
 #include "scenes.h"
 

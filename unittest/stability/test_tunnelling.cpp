@@ -234,6 +234,40 @@ TEST(Tunnelling, passages_between_two_positions_are_an_error)
   EXPECT_EQ(said(0.49, 1.6, 0.97, 1.1), "");
 }
 
+// Lists that a script keeps for too long hide pairs from integrators that do not have them built
+// themselves: one of two like spheres that collide head-on is to stop, and flies on.
+TEST(Tunnelling, lists_that_are_kept_for_too_long_are_warned_of)
+{
+  const auto warnings = [](const std::string &integrator, const std::string &options, bool meets) {
+    SCOPED_TRACE(integrator + options);
+    Scene scene;
+    scene.style = pair_of(jkr);
+    Simulation sim;
+    build(sim, {{2.0, 4.0, 4.0}, {6.0, 4.0, 4.0}}, scene);
+    set_motion(sim, 1, {100.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+    sim.run("neighbor 0.5 bin\ntimestep " + digits(dt) + "\n" + integrator + "\n" +
+            (options.empty() ? "" : "neigh_modify " + options));
+    const double step = sim.lammps()->update->dt;
+    const auto log = log_of(sim, "run " + std::to_string(std::lround(900 * dt / step)) + "\n");
+    EXPECT_NEAR(gather(sim, "v")[0], meets ? 0.0 : 100.0, 1.0);
+    int count = 0;
+    const std::string words = "WARNING: Pair granular/adhesive: with neigh_modify ";
+    for (size_t at = 0; (at = log.find(words, at)) != log.npos; at++) count++;
+    const std::string cure = "use neigh_modify delay 0 every 1 check yes";
+    EXPECT_EQ(log.find(cure) != log.npos, count > 0) << log;
+    return count;
+  };
+  const std::string verlet = "fix nve all nve/sphere", respa = "\nrun_style respa 2 4 pair 1";
+  for (const std::string options : {"", "delay 0 every 1 check yes", "check no", "delay 1"})
+    EXPECT_EQ(warnings(verlet, options, true), 0);
+  for (const std::string options :
+       {"delay 1000", "every 1000 check no", "every 1000 delay 1000", "once yes"})
+    EXPECT_EQ(warnings(verlet, options, false), 1);
+  EXPECT_EQ(warnings(verlet, "delay 10", true), 1);
+  for (const std::string &integrator : {mts(4), verlet + respa})
+    EXPECT_EQ(warnings(integrator, "delay 1000 every 1000", true), 0);
+}
+
 // what is inserted into others within a run: its contact has no speed that it came with
 TEST(Tunnelling, particles_inserted_into_others_are_an_error)
 {
