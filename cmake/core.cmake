@@ -37,9 +37,9 @@ endif()
 
 # ---- files of flows: VTKHDF by HDF5's C library
 find_package(HDF5 REQUIRED COMPONENTS C)
-add_library(apf-vtkhdf STATIC ${APF_SOURCE}/flow/vtkhdf_file.cpp ${APF_SOURCE}/flow/read_guard.cpp)
+add_library(apf-vtkhdf STATIC ${APF_SOURCE}/flow/vtkhdf_file.cpp)
 target_link_libraries(apf-vtkhdf PUBLIC apf-core PRIVATE ${HDF5_C_LIBRARIES}
-  $<$<PLATFORM_ID:Linux>:rt>)    # timer_create of glibc before 2.34
+  PUBLIC $<$<PLATFORM_ID:Linux>:rt>)    # timer_create of glibc before 2.34, for those who read files
 target_include_directories(apf-vtkhdf SYSTEM PRIVATE ${HDF5_C_INCLUDE_DIRS})
 target_compile_definitions(apf-vtkhdf PRIVATE ${HDF5_C_DEFINITIONS})
 set_target_properties(apf-vtkhdf PROPERTIES POSITION_INDEPENDENT_CODE ON)

@@ -44,7 +44,7 @@ int FlowGrid::Options::parse(LAMMPS *lmp, int iarg, int narg, char **arg)
 FlowGrid::FlowGrid(LAMMPS *lmp, const std::string &path_in, const Options &options_in, int iarg) :
     GridFile(lmp, "Fix flow/field", path_in, iarg), options(options_in)
 {
-  attempt([this] {
+  look([this] {
     times = file->times();
     known_distance = file->has("distance");
     digest.add(&known_distance, 1);

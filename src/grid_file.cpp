@@ -6,6 +6,7 @@
 #include "fix.h"
 #include "modify.h"
 #include "particle_checks.h"
+#include "read_guard.h"
 
 #include <climits>
 #include <cmath>
@@ -21,8 +22,8 @@ GridFile::GridFile(LAMMPS *lmp, const char *command_in, const std::string &path_
     Pointers(lmp), command(command_in), path(path_in), position(iarg), numbers(world)
 {
   check_orthogonal(lmp, command + " file requires", iarg);
-  attempt([this] {
-    file = std::make_unique<apf::VtkhdfFile>(path, command + " file " + path);
+  look([this] {
+    file = std::make_unique<apf::VtkhdfFile>(path);
     image = file->grid();
     digest.add(image.n, 3).add(image.origin, 3).add(image.spacing, 3);
     digest.add(file->times().data(), file->times().size());
@@ -71,8 +72,24 @@ void GridFile::attempt(const std::function<void()> &work)
 
 /* ---------------------------------------------------------------------- */
 
+void GridFile::look(const std::function<void()> &work)
+{
+  attempt([&] {
+    const ReadGuard guard(command + " file " + path);
+    work();
+  });
+}
+
+void GridFile::close()
+{
+  if (!file) return;
+  const ReadGuard guard(command + " file " + path);
+  file.reset();
+}
+
 std::vector<double> GridFile::read(const std::string &array, int components, int frame)
 {
+  const ReadGuard guard(command + " file " + path, image.nodes() * components);
   auto values = file->read(array, components, frame, layers());
   if (numbers.ranks() < comm->nprocs) digest.add(values.data(), values.size());
   return values;

@@ -28,6 +28,7 @@ class GridFile : protected Pointers {
  protected:
   // command: for errors, as "Fix flow/field"; iarg: the file's word in it
   GridFile(LAMMPS *, const char *command, const std::string &path, int iarg);
+  ~GridFile() override { close(); }
   GridFile(const GridFile &) = delete;
   GridFile &operator=(const GridFile &) = delete;
 
@@ -42,8 +43,11 @@ class GridFile : protected Pointers {
   // Lets the ranks that read do so; an error of one of them is one of all, and so is a node that
   // has read something else than the others.
   void attempt(const std::function<void()> &work);
-  // what such work may call: the numbers of an array
+  // the same, of work that looks at names and attributes of the file only
+  void look(const std::function<void()> &work);
+  // what an attempt may call: the numbers of an array
   std::vector<double> read(const std::string &array, int components, int frame = 0);
+  void close();
   // Memory for so many numbers. Errors if there is not enough.
   void allocate(std::size_t count);
   // The lattice of the file in the box, which it must cover unless it may be continued; advice:

@@ -30,7 +30,7 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
 {
   choose(arrays, largest_pieces);
   // before the box is compared with a grid that may not be that of the arrays
-  attempt([this] {
+  look([this] {
     for (const auto &piece : pieces) file->check(piece, 1);
   });
   make_lattice(false, "");
@@ -50,7 +50,7 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
     if (!(reaches[n] > 0.0))
       error->all(FLERR, position, "{} file {}: array {} is > 0 nowhere: it must be so in the fluid",
                  command, path, pieces[n]);
-  file.reset();
+  close();
   position = Error::NOLASTLINE;
 }
 
@@ -59,7 +59,7 @@ WallGrid::WallGrid(LAMMPS *lmp, const char *command_in, const std::string &path_
 void WallGrid::choose(const std::vector<std::string> &wanted, int most)
 {
   std::string list;    // with a zero behind each name
-  attempt([&] {
+  look([&] {
     auto names = wanted;
     if (names.empty()) {
       for (const auto &name : file->arrays())

@@ -1,7 +1,6 @@
 #include "vtkhdf_file.h"
 
 #include "hdf5_input.h"
-#include "read_guard.h"
 #include "regular_file.h"
 
 #include <cerrno>
@@ -49,10 +48,8 @@ namespace {
 
 /* ---------------------------------------------------------------------- */
 
-VtkhdfFile::VtkhdfFile(const std::string &path_in, const std::string &called_in) :
-    path(path_in), called(called_in.empty() ? path_in : called_in)
+VtkhdfFile::VtkhdfFile(const std::string &path_in) : path(path_in)
 {
-  const ReadGuard guard(called);
   const Quiet quiet;
   try {
     open();
@@ -66,7 +63,6 @@ VtkhdfFile::VtkhdfFile(const std::string &path_in, const std::string &called_in)
 
 VtkhdfFile::~VtkhdfFile()
 {
-  const ReadGuard guard(called);
   close();
 }
 
@@ -178,14 +174,12 @@ void VtkhdfFile::read_steps()
 
 bool VtkhdfFile::has(const std::string &array) const
 {
-  const ReadGuard guard(called);
   const Quiet quiet;
   return exists(points, array.c_str());
 }
 
 std::vector<std::string> VtkhdfFile::arrays() const
 {
-  const ReadGuard guard(called);
   const Quiet quiet;
   return names();
 }
@@ -279,7 +273,6 @@ VtkhdfFile::Shape VtkhdfFile::checked(std::int64_t data, const std::string &arra
 
 void VtkhdfFile::check(const std::string &array, int components) const
 {
-  const ReadGuard guard(called);
   const Quiet quiet;
   const Handle data(find(array), H5Dclose);
   checked(data, array, components, 0);
@@ -288,7 +281,6 @@ void VtkhdfFile::check(const std::string &array, int components) const
 std::vector<double> VtkhdfFile::read(const std::string &array, int components, int frame,
                                      int layers) const
 {
-  const ReadGuard guard(called, image.nodes() * components);
   const Quiet quiet;
   const Handle data(find(array), H5Dclose), space(H5Dget_space(data), H5Sclose);
   const Shape part = checked(data, array, components, frame);

@@ -24,8 +24,7 @@ struct ImageGrid {
 
 class VtkhdfFile {
  public:
-  // called: what names the file where HDF5 crashes or does not end; default its path
-  explicit VtkhdfFile(const std::string &path, const std::string &called = "");
+  explicit VtkhdfFile(const std::string &path);
   ~VtkhdfFile();
   VtkhdfFile(const VtkhdfFile &) = delete;
   VtkhdfFile &operator=(const VtkhdfFile &) = delete;
@@ -50,7 +49,7 @@ class VtkhdfFile {
     std::uint64_t offset = 0;               // of the frame, along time
   };
 
-  std::string path, called;
+  std::string path;
   std::array<long long, 4> stamp{};       // of the file as it was opened
   std::int64_t file = -1, points = -1;    // of HDF5: the file, its group PointData
   ImageGrid image;

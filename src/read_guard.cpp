@@ -7,7 +7,7 @@
 #include <unistd.h>
 #endif
 
-namespace apf {
+namespace LAMMPS_NS {
 
 #ifdef _WIN32
 
@@ -116,4 +116,4 @@ ReadGuard::~ReadGuard()
 
 #endif
 
-}    // namespace apf
+}    // namespace LAMMPS_NS

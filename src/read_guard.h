@@ -4,13 +4,13 @@
 // its thread has had more time of the processor than the work is worth, the program ends with such
 // a line and status 1. One at a time.
 
-#ifndef APF_READ_GUARD_H
-#define APF_READ_GUARD_H
+#ifndef LMP_READ_GUARD_H
+#define LMP_READ_GUARD_H
 
 #include <cstddef>
 #include <string>
 
-namespace apf {
+namespace LAMMPS_NS {
 
 class ReadGuard {
  public:
@@ -22,6 +22,6 @@ class ReadGuard {
   ReadGuard &operator=(const ReadGuard &) = delete;
 };
 
-}    // namespace apf
+}    // namespace LAMMPS_NS
 
 #endif
