@@ -166,8 +166,8 @@ void FixNVESphereMTS::init()
                      "smaller timestep; fix wall/levelset has contacts that do",
                      command, id, fix->id, fix->style);
 
-  if (!fixed_steps && n_collision == 1)
-    n_collision = std::max(1,
-                           static_cast<int>(std::ceil(
-                               update->dt * history->stiffest_possible().frequency / rule.kappa)));
+  if (!fixed_steps && n_collision == 1) {
+    const double n = std::ceil(update->dt * history->stiffest_possible().frequency / rule.kappa);
+    n_collision = std::max(1, static_cast<int>(std::min<double>(n, too_many)));
+  }
 }
