@@ -7,6 +7,7 @@
 #include "flow_grid.h"
 #include "given_once.h"
 #include "input.h"
+#include "lost_state.h"
 #include "modify.h"
 #include "restart_state.h"
 #include "update.h"
@@ -80,6 +81,7 @@ void FixFlowField::find_variables()
 
 void FixFlowField::init()
 {
+  if (restart_global) LostState::warn(lmp, this, "its flow begins anew");
   find_variables();
   if (grid) grid->check_box(Error::NOLASTLINE);
 

@@ -11,6 +11,7 @@
 #include "fix_flow_force.h"
 #include "force.h"
 #include "given_once.h"
+#include "lost_state.h"
 #include "modify.h"
 #include "particle_checks.h"
 #include "update.h"
@@ -149,6 +150,7 @@ void FixNVESphereMTS::init()
                    command, id, fix->id, fix->style,
                    deforms ? "remap v" : "fix deform with remap v");
   }
+  LostState::warn(lmp, this, "its counts begin at 0, and the run does not go on to the last bit");
   // a restart file does not tell what was sub-stepped, and a run begins as it does from there
   std::fill(activity.begin(), activity.end(), apf::FREE);
 

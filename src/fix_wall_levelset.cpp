@@ -10,6 +10,7 @@
 #include "fix_contact_history.h"
 #include "force.h"
 #include "given_once.h"
+#include "lost_state.h"
 #include "modify.h"
 #include "named_atoms.h"
 #include "particle_checks.h"
@@ -116,6 +117,10 @@ void FixWallLevelset::init()
   check_diameters(lmp, fmt::format("{} {}", command, id));
   check_cleared(lmp, fmt::format("{} {}", command, id), this);
   check_group(lmp, fmt::format("{} {} touches", command, id), this);
+  LostState::warn(
+      lmp, this,
+      "springs of contacts with this wall, its bridges and its counts are gone, and one "
+      "that moves is in its first place");
   warn_of_same_walls();
   frozen = frozen_groups(lmp);
   motion.init(id);
