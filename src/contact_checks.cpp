@@ -6,12 +6,14 @@
 #include "fix_deform.h"
 #include "fix_nve_sphere.h"
 #include "group.h"
+#include "input.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -130,6 +132,8 @@ void TimestepCheck::begin(LAMMPS *lmp, const std::string &of, const apf::Stiffes
   told = kappa > apf::largest_stable_kappa;
   if (kappa <= apf::accurate_kappa || lmp->comm->me != 0) return;
   if (lmp->update->whichflag == 2) return;    // a minimiser has no step
+  const char *running = lmp->input->command;
+  if (running && strcmp(running, "rerun") == 0) return;    // frames are read, no step is taken
   const double n = std::round(lmp->update->dt / dt), good = apf::accurate_kappa / mode.frequency;
   const bool sub_steps = !lmp->modify->get_fix_by_style("^nve/sphere/mts").empty();
   if (kappa <= apf::largest_stable_kappa) {

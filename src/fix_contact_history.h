@@ -9,6 +9,7 @@ FixStyle(contact/history,FixContactHistory);
 
 #include "fix_contacts.h"
 
+#include "lost_state.h"
 #include "respa_lists.h"
 
 namespace LAMMPS_NS {
@@ -98,6 +99,7 @@ class FixContactHistory : public FixContacts {
 
   // positions and velocities of the last forces, and these forces; local and ghost atoms
   apf::Bodies &bodies() { return velocities.bodies; }
+  LostState lost;    // of other fixes
   int level() const override;
   using FixContacts::last_times;
   using FixContacts::step_of_level;

@@ -2,10 +2,12 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "flow_grid.h"
 #include "given_once.h"
 #include "input.h"
+#include "lost_state.h"
 #include "modify.h"
 #include "restart_state.h"
 #include "update.h"
@@ -79,6 +81,7 @@ void FixFlowField::find_variables()
 
 void FixFlowField::init()
 {
+  if (restart_global) LostState::warn(lmp, this, "its flow begins anew");
   find_variables();
   if (grid) grid->check_box(Error::NOLASTLINE);
 
@@ -222,13 +225,35 @@ void FixFlowField::outside(const apf::PointBlock &points) const
     one.set(0, x);
     if (!gridded.sample(one, apf::Detail::VELOCITY, fluid)) break;
   }
-  std::string name = "a point";
+  std::string name = "a point", border;
   for (int i = 0; i < atom->nlocal; i++)
-    if (std::equal(x, x + 3, atom->x[i])) name = fmt::format("atom {}", atom->tag[i]);
+    if (std::equal(x, x + 3, atom->x[i])) {
+      name = fmt::format("atom {}", atom->tag[i]);
+      border = border_left(x);
+    }
+  const auto place =
+      fmt::format("Fix flow/field {}: {} at ({:.8g}, {:.8g}, {:.8g}) ", id, name, x[0], x[1], x[2]);
+  if (border.empty())
+    error->one(FLERR, Error::NOLASTLINE,
+               "{}is outside the grid, {}; keyword outside clamp continues it", place,
+               grid->extent());
   error->one(FLERR, Error::NOLASTLINE,
-             "Fix flow/field {}: {} at ({:.8g}, {:.8g}, {:.8g}) is outside the grid, {}; keyword "
-             "outside clamp continues it",
-             id, name, x[0], x[1], x[2], grid->extent());
+             "{}has left the box at its fixed border {}, and is outside the grid, {}; keyword "
+             "outlet of fix inlet/flow deletes and counts particles that leave, before the border",
+             place, border, grid->extent());
+}
+
+// the fixed border of the box that a point is beyond, as in "x = 1", or nothing
+std::string FixFlowField::border_left(const double *x) const
+{
+  constexpr int fixed = 1;
+  for (int c = 0; c < domain->dimension; c++)
+    for (const int upper : {0, 1}) {
+      const double border = upper ? domain->boxhi[c] : domain->boxlo[c];
+      if (domain->boundary[c][upper] == fixed && (upper ? x[c] > border : x[c] < border))
+        return fmt::format("{} = {:.6g}", "xyz"[c], border);
+    }
+  return {};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -104,6 +104,7 @@ class FixFlowField : public Fix {
   void evaluate_variables();
   void set_speed(apf::FlowField &, double Speed::*) const;
   [[noreturn]] void outside(const apf::PointBlock &points) const;
+  std::string border_left(const double *x) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -219,6 +219,19 @@ FixFlowField *FixFlowForce::find_field(int iarg)
 
 /* ---------------------------------------------------------------------- */
 
+namespace {
+// A density that no matter has: osmium is the heaviest, 2.26e4 kg/m^3. In units lj it is some
+// number of diameters, and the density of particles of the order of 1.
+double heaviest_matter(const std::string &units)
+{
+  constexpr double si = 2.5e4;    // [kg/m^3]
+  if (units == "cgs") return 1.0e-3 * si;
+  if (units == "micro") return 1.0e-3 * si;    // picogram / micrometer^3
+  if (units == "nano") return 1.0e-6 * si;     // attogram / nanometer^3
+  return si;
+}
+}    // namespace
+
 void FixFlowForce::check_particles()
 {
   const double *radius = atom->radius;
@@ -243,12 +256,13 @@ void FixFlowForce::check_particles()
   double densest_all;
   MPI_Allreduce(&densest, &densest_all, 1, MPI_DOUBLE, MPI_MAX, world);
   if (densest_all > 1.0e5 * field->density && comm->me == 0)
-    error->warning(
-        FLERR,
-        "Fix flow/force {}: particles have a density of up to {:.3g}, {:.3g} times that of "
-        "the fluid; set diameter before density, as in: set group all diameter D density "
-        "RHO",
-        id, densest_all, densest_all / field->density);
+    error->warning(FLERR,
+                   "Fix flow/force {}: particles have a density of up to {:.3g}, {:.3g} times that "
+                   "of the fluid, {:.3g}, of fix {}; {}",
+                   id, densest_all, densest_all / field->density, field->density, field_id,
+                   densest_all > heaviest_matter(update->unit_style)
+                       ? "set diameter before density, as in: set group all diameter D density RHO"
+                       : "are its density and viscosity in order and in the units of the input?");
 }
 
 /* ---------------------------------------------------------------------- */

@@ -7,6 +7,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_contacts.h"
+#include "lost_state.h"
 #include "math_const.h"
 #include "modify.h"
 #include "particle_checks.h"
@@ -69,6 +70,7 @@ void FixInletFlow::init()
   check_plane();
   check_direction(lmp, fmt::format("{} {}", command, id));
   warn_of_equal_seeds();
+  LostState::warn(lmp, this, "it counts from 0, and its particles are those of a run that begins");
   check_inserted(lmp, fmt::format("{} {}", command, id), this);
 
   walls.find(modify);

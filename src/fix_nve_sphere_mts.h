@@ -121,6 +121,7 @@ class FixNVESphereMTS : public Fix {
   void begin_totals();
   void find_slow_largest();
   void choose_steps();
+  [[noreturn]] void refuse_steps(double n, const apf::Stiffest &here);    // too many; collective
   void fit_due();
   apf::Slow slow_of(int i, bool all = false) const;
   double contact_share(int i) const;

@@ -11,6 +11,7 @@
 #include "fix_flow_force.h"
 #include "force.h"
 #include "given_once.h"
+#include "lost_state.h"
 #include "modify.h"
 #include "particle_checks.h"
 #include "update.h"
@@ -149,6 +150,7 @@ void FixNVESphereMTS::init()
                    command, id, fix->id, fix->style,
                    deforms ? "remap v" : "fix deform with remap v");
   }
+  LostState::warn(lmp, this, "its counts begin at 0, and the run does not go on to the last bit");
   // a restart file does not tell what was sub-stepped, and a run begins as it does from there
   std::fill(activity.begin(), activity.end(), apf::FREE);
 
@@ -166,8 +168,8 @@ void FixNVESphereMTS::init()
                      "smaller timestep; fix wall/levelset has contacts that do",
                      command, id, fix->id, fix->style);
 
-  if (!fixed_steps && n_collision == 1)
-    n_collision = std::max(1,
-                           static_cast<int>(std::ceil(
-                               update->dt * history->stiffest_possible().frequency / rule.kappa)));
+  if (!fixed_steps && n_collision == 1) {
+    const double n = std::ceil(update->dt * history->stiffest_possible().frequency / rule.kappa);
+    n_collision = std::max(1, static_cast<int>(std::min<double>(n, too_many)));
+  }
 }

@@ -2,6 +2,7 @@
 
 #include "fix_nve_sphere_mts.h"
 
+#include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_contacts.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -49,6 +51,40 @@ void FixNVESphereMTS::post_run()
         "dt = {:.3g}: above {} a contact gains energy; use collision {:.0f} or more",
         command, id, fixed_steps, run.kappa, unstable_kappa, accurate_steps());
   begin_totals();    // also for a run without setup
+}
+
+// The step may be what is wrong; more often a mass is: both are told, with the contact that asks
+// for so many.
+void FixNVESphereMTS::refuse_steps(double n, const apf::Stiffest &here)
+{
+  struct {
+    double value;
+    int rank;
+  } demand{here.demand2, comm->me}, mass{std::numeric_limits<double>::max(), comm->me};
+  MPI_Allreduce(MPI_IN_PLACE, &demand, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  double contact[3] = {here.of2, here.mass, static_cast<double>(here.mode)};
+  MPI_Bcast(contact, 3, MPI_DOUBLE, demand.rank, world);
+
+  double lightest[3] = {};    // ID, type, radius
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->rmass[i] < mass.value)) continue;
+    mass.value = atom->rmass[i];
+    lightest[0] = static_cast<double>(atom->tag[i]);
+    lightest[1] = atom->type[i];
+    lightest[2] = atom->radius[i];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &mass, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+  MPI_Bcast(lightest, 3, MPI_DOUBLE, mass.rank, world);
+  const double r = lightest[2], volume = 4.0 / 3.0 * MathConst::MY_PI * r * r * r;
+  error->all(FLERR, Error::NOLASTLINE,
+             "{} {}: a timestep of {:.3g} takes {:.3g} collision steps, more than {}: the {} mode "
+             "of a contact has omega = {:.3g}, of an effective mass of {:.3g}; the lightest "
+             "particle, ID {:.0f} of type {:.0f}, has a mass of {:.3g}, a diameter of {:.3g} and a "
+             "density of {:.3g}: are these, and the stiffness, in order and in units {}? If so, "
+             "use timestep {:.2g} or smaller",
+             command, id, update->dt, n, too_many, apf::mode_names[static_cast<int>(contact[2])],
+             std::sqrt(contact[0]), contact[1], lightest[0], lightest[1], mass.value, 2.0 * r,
+             mass.value / volume, update->unit_style, 0.9 * update->dt * too_many / n);
 }
 
 void FixNVESphereMTS::begin_totals()

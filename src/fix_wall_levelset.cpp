@@ -10,6 +10,7 @@
 #include "fix_contact_history.h"
 #include "force.h"
 #include "given_once.h"
+#include "lost_state.h"
 #include "modify.h"
 #include "named_atoms.h"
 #include "particle_checks.h"
@@ -116,6 +117,11 @@ void FixWallLevelset::init()
   check_diameters(lmp, fmt::format("{} {}", command, id));
   check_cleared(lmp, fmt::format("{} {}", command, id), this);
   check_group(lmp, fmt::format("{} {} touches", command, id), this);
+  LostState::warn(
+      lmp, this,
+      "springs of contacts with this wall, its bridges and its counts are gone, and one "
+      "that moves is in its first place");
+  warn_of_same_walls();
   frozen = frozen_groups(lmp);
   motion.init(id);
   rebuild = true;    // atoms may have come, gone or moved since the last run
@@ -261,6 +267,43 @@ void FixWallLevelset::check_grid(double smallest, double largest)
   std::copy(now, now + 4, checked_for);
   grid->check(surfaces, smallest, largest, allowed);
   if (wet) grid->check_bridges(surfaces, smallest, largest + of_bridges);
+}
+
+// The same surface in two fixes counts twice for particles of both groups.
+void FixWallLevelset::warn_of_same_walls()
+{
+  const auto names = surface_names(surfaces, grid.get());
+  bool later = false;
+  for (const auto &fix : modify->get_fix_by_style("^wall/levelset")) {
+    const auto *other = dynamic_cast<FixWallLevelset *>(fix);
+    const bool before = later;
+    later = later || fix == this;
+    if (!other || !before || !motion.same_as(other->motion)) continue;
+    const auto others = surface_names(other->surfaces, other->grid.get());
+    std::string same;
+    for (size_t s = 0; s < surfaces.size(); s++)
+      for (size_t t = 0; t < other->surfaces.size(); t++)
+        if (grid ? other->grid && grid->name() == other->grid->name() && names[s] == others[t]
+                 : surfaces[s].same_as(other->surfaces[t]))
+          same += (same.empty() ? "" : ", ") + names[s];
+    if (same.empty() || !shares_atoms(other) || comm->me != 0) continue;
+    error->warning(
+        FLERR,
+        "{} {} and fix {} are the same wall ({}) for the same particles, which it "
+        "touches twice, with twice the force: give one fix only, or groups that share no "
+        "particle",
+        command, id, other->id, same);
+  }
+}
+
+// ... now, or when particles enter
+bool FixWallLevelset::shares_atoms(const Fix *other) const
+{
+  int mine = igroup == other->igroup, all;
+  for (int i = 0; i < atom->nlocal; i++)
+    mine |= atom->mask[i] & groupbit && atom->mask[i] & other->groupbit;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MAX, world);
+  return all;
 }
 
 /* ----------------------------------------------------------------------

@@ -151,6 +151,8 @@ class FixWallLevelset : public FixContacts {
                       int iarg);
   void check_particles();
   void check_places();
+  void warn_of_same_walls();
+  bool shares_atoms(const Fix *other) const;
   void check_lists();    // before contacts are told of; called by all ranks
   void check_borders(double largest);
   void warn_of_borders(const apf::Surface &cylinder, double largest);

@@ -123,6 +123,7 @@ void PairGranularAdhesive::init_style()
     store->serve(this);
     bridges.serve(store);
   }
+  store->lost.note(modify);
   sizes = TypeSizes::find(lmp, "Pair granular/adhesive");
   check_scene(lmp, "Pair granular/adhesive", 2.0 * sizes.largest_radius());
   neck_max = reach_max = 0.0;    // init_one finds them

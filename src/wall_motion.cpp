@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 
@@ -48,6 +49,20 @@ void WallMotion::parse(const char *command_in, int narg, char **arg, int &iarg)
       error->all(FLERR, iarg, "{} move {} must be 0 {} {} in 2 dimensions, got {}", command,
                  rotates ? "rotate" : "linear", rotates ? "about" : "along", "xyz"[c], arg[iarg]);
   }
+}
+
+bool WallMotion::same_as(const WallMotion &other) const
+{
+  const auto same = [](const Speed &a, const Speed &b) {
+    return a.value == b.value && a.variable == b.variable;
+  };
+  if (pose.moves != other.pose.moves || moved != other.moved || turned != other.turned)
+    return false;
+  double mine[apf::WallPose::state_size], others[apf::WallPose::state_size];
+  pose.write(mine);
+  other.pose.write(others);
+  return std::equal(linear, linear + 3, other.linear, same) &&
+      std::equal(turn, turn + 3, other.turn, same) && std::equal(mine, std::end(mine), others);
 }
 
 void WallMotion::find_variables()

@@ -26,6 +26,7 @@ class WallMotion : protected Pointers {
   void take_speeds();           // of the step that begins now
 
   bool varies() const { return by_variables; }
+  bool same_as(const WallMotion &) const;    // where it is, and how it moves on
 
   // the largest speed of the wall within a distance of its centre of rotation         [velocity]
   double fastest(double reach) const;

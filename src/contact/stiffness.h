@@ -72,7 +72,10 @@ struct Stiffest {
   const double *acceleration = nullptr;    // of each body's surface    [velocity/time]
   double frequency2 = 0.0;    // largest of all contacts, squared                   [1/time^2]
   double demand2 = 0.0;       // largest (frequency / kappa)^2 = 1/step^2            [1/time^2]
-  ContactMode mode = NONE;    // of the contact that demands it
+  // of the contact that demands it:
+  ContactMode mode = NONE;
+  double of2 = 0.0;     // its frequency, squared                                   [1/time^2]
+  double mass = 0.0;    // its effective mass                                           [mass]
 
   // A pair that does not touch, of bodies with a sum of accelerations. If it will in the step as
   // it flies, first touch sets U(0) - U(rest) = 0.607082 F_C delta_C free. Where neither that nor
@@ -118,6 +121,8 @@ struct Stiffest {
     if (f2 <= demand2 * kappa2) return;
     demand2 = f2 / kappa2;
     mode = contact.mode;
+    of2 = f2;
+    mass = contact.mass;
   }
   double frequency2_of(const StiffestMode &contact, double overlap) const
   {

@@ -47,6 +47,13 @@ struct Surface {
     return {Shape::grid, 0, 1.0, {0.0, 0.0}, 0.0, grid, {0.0, 0.0}, false, reach};
   }
 
+  // whether both are the same plane or cylinder, with the fluid on the same side
+  bool same_as(const Surface &other) const
+  {
+    return shape != Shape::grid && shape == other.shape && dim == other.dim && side == other.side &&
+        origin[0] == other.origin[0] && origin[1] == other.origin[1] && radius == other.radius;
+  }
+
   // signed distance of x, > 0 in the fluid [length]
   double distance(const double *x) const
   {

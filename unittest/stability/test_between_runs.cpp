@@ -2,6 +2,7 @@
 // outputs asked for before and after.
 
 #include "scenes.h"
+#include "temporary_file.h"
 
 #include "atom.h"
 #include "update.h"
@@ -58,6 +59,20 @@ TEST(BetweenRuns, outputs_after_atoms_have_moved_ask_for_run_0)
       EXPECT_EQ(sim.value("c_agg[3]") > 1.0, some);
       EXPECT_EQ(sim.value("c_dep[1]") > 0.0, some && change.find("displace") != 0);
     }
+}
+
+// Rerun takes no steps, and initialises fixes at each frame.
+TEST(BetweenRuns, rerun_says_nothing_of_the_timestep)
+{
+  const TemporaryFile file("apf_frames", ".dump");
+  Simulation sim;
+  pile(sim, by_verlet);
+  sim.run("write_dump all custom " + file.path + " id x y z\nunfix nve\ntimestep 1");
+  const std::string words = " is too large for the ";
+  EXPECT_NE(log_of(sim, "run 0\n").find(words), std::string::npos);
+  const std::string log = log_of(sim, "rerun " + file.path + " dump x y z\n");
+  EXPECT_EQ(log.find(words), std::string::npos) << log;
+  EXPECT_NE(log_of(sim, "run 0\n").find(words), std::string::npos);
 }
 
 TEST(BetweenRuns, what_was_taken_away_is_named)

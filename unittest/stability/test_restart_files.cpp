@@ -82,6 +82,17 @@ class Restart {
   std::vector<size_t> marks;
   std::string bytes;
 
+  // what LAMMPS says of the file and commands after it; STYLES: all fixes as they were
+  std::string log_with(std::string commands) const
+  {
+    const auto at = commands.find("STYLES");
+    if (at != std::string::npos) commands.replace(at, 6, styles());
+    std::ofstream(file.path, std::ios::binary) << bytes;
+    Simulation sim;
+    sim.run("comm_modify vel yes\nread_restart " + file.path);
+    return log_of(sim, commands + "\n");
+  }
+
  private:
   TemporaryFile file{"apf_foreign", ".restart"};
 
@@ -297,6 +308,35 @@ TEST(Faults, full_disk)
   sim.run("comm_modify vel yes\nread_restart " + first.path);
   EXPECT_EQ(gather(sim, "x"), x);
   EXPECT_EQ(sim.error_of(wall + neck + "run 5"), "");
+}
+
+int count_of(const std::string &text, const std::string &words)
+{
+  int n = 0;
+  for (size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) n++;
+  return n;
+}
+
+// The first command that prepares a run throws away the state of fixes that are not there: told by
+// each that comes later under the same ID, once. One that is new on purpose is not told of.
+TEST(Faults, state_that_a_command_has_thrown_away_is_told_of)
+{
+  const Restart restart;
+  const std::string words = "the restart file had its state";
+  for (const std::string command :
+       {"run 0", "write_data /dev/null", "reset_atoms id", "delete_atoms overlap 0.1 all all"}) {
+    const std::string log = restart.log_with(command + "\nSTYLES\nrun 0\nrun 0");
+    SCOPED_TRACE(command + log);
+    for (const char *fix :
+         {"wall/levelset wall", "flow/field air", "inlet/flow in", "nve/sphere/mts nve"})
+      EXPECT_EQ(count_of(log, std::string("WARNING: Fix ") + fix + ": " + words), 1) << fix;
+    EXPECT_EQ(count_of(log, words), 4);
+  }
+  const std::string other = "fix other all wall/levelset plane x 0 NULL" + wet + "film 1e-3\n";
+  for (const std::string &commands :
+       {std::string("STYLES\nrun 0\nunfix wall\nrun 0\n") + wall + "run 0",
+        "run 0\n" + other + "run 0", other + "run 0"})
+    EXPECT_EQ(count_of(restart.log_with(commands), words), 0) << commands;
 }
 
 TEST(Faults, restart_to_a_full_device_is_an_error)

@@ -107,3 +107,41 @@ TEST(FlowInput, errors_of_units_and_atom_style)
                 .find("Fix flow/force requires units lj, si, cgs, micro or nano, got real"),
             std::string::npos);
 }
+
+// A ratio of densities of more than 1e5: which of the two is absurd, decides what may be wrong.
+TEST(FlowInput, densities_that_cannot_be)
+{
+  const auto log = [](const std::string &set, const std::string &fluid) {
+    Simulation sim;
+    sim.run("units si\natom_style sphere\nregion box block 0 2e-4 0 2e-4 0 2e-4\n"
+            "create_box 1 box\ncreate_atoms 1 single 1e-4 1e-4 1e-4\n"
+            "pair_style zero 1e-5\npair_coeff * *\nneighbor 1e-5 bin\n"
+            "set group all " +
+            set + "\nfix nve all nve/sphere\n");
+    return log_of(sim,
+                  "fix air all flow/field uniform 1 0 0 " + fluid +
+                      "\nfix drag all flow/force air drag stokes\ntimestep 1e-6\nrun 0\n");
+  };
+  const auto has = [](const std::string &text, const std::string &words) {
+    return text.find(words) != std::string::npos;
+  };
+  const std::string air = "density 1.2 viscosity 2e-5", right = "diameter 1e-5 density 2600";
+  const std::string first = "set diameter before density", fluid = "are its density and viscosity";
+  EXPECT_FALSE(has(log(right, air), "particles have a density"));
+  EXPECT_FALSE(has(log("diameter 1e-5 density 22600", air), "particles have a density"));
+  const std::string swapped = log(right, "density 2e-5 viscosity 1.2");
+  EXPECT_TRUE(has(swapped,
+                  "Fix flow/force drag: particles have a density of up to 2.6e+03, "
+                  "1.3e+08 times that of the fluid, 2e-05, of fix air; " +
+                      fluid))
+      << swapped;
+  EXPECT_FALSE(has(swapped, first));
+  // the mass of a sphere of diameter 1: 1e15 times that of one of 1e-5
+  const std::string late = log("density 2600 diameter 1e-5", air);
+  EXPECT_TRUE(has(late,
+                  "a density of up to 2.6e+18, 2.17e+18 times that of the fluid, 1.2, of fix "
+                  "air; " +
+                      first))
+      << late;
+  EXPECT_FALSE(has(late, fluid));
+}

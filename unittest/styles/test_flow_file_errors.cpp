@@ -205,3 +205,29 @@ TEST(FlowFile, leaving_the_grid_is_an_error_or_clamped)
           forces);
   EXPECT_NEAR(sim.value("vx[2]"), 6.0, 1e-3);
 }
+
+// ... and beyond a fixed border of the box, to which no grid has to reach.
+TEST(FlowFile, leaving_the_box_names_border_and_outlet)
+{
+  const TemporaryFile file("apf_left");
+  file.write({3, 3, 3}, {0, 0, 0}, {5, 5, 5}, [](VtkhdfWriter &w) {
+    w.field("velocity", 3, parabola);
+  });
+  const auto error = [&](const std::string &boundary, const std::string &place) {
+    Simulation sim;
+    return sim.error_of(spheres + "change_box all boundary " + boundary +
+                        "\nfix flow all flow/field file " + file.path + fluid +
+                        "fix drag all flow/force flow drag stokes\ntimestep 1e-3\nset atom 2 " +
+                        place + "\nrun 1\n");
+  };
+  const std::string outlet = "keyword outlet of fix inlet/flow deletes and counts particles";
+  for (const auto &[place, border] : {std::array<std::string, 2>{"x 9.99 vx 60", "x = 10"},
+                                      std::array<std::string, 2>{"x 0.01 vx -60", "x = 0"}}) {
+    const auto text = error("f p p", place);
+    EXPECT_NE(text.find("has left the box at its fixed border " + border), std::string::npos)
+        << text;
+    EXPECT_NE(text.find(outlet), std::string::npos) << text;
+  }
+  for (const char *boundary : {"m p p", "s p p"})
+    EXPECT_EQ(error(boundary, "x 9.99 vx 60").find("fixed border"), std::string::npos);
+}

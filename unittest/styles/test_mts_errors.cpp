@@ -274,6 +274,37 @@ TEST(MtsErrors, skin_that_is_too_thin_for_the_safety_factor)
 }
 
 // ... with what needs a scene of its own
+// Too many collision steps, because of a mass rather than of the timestep: by omega = (k/m)^(1/2),
+// with m/2 of a pair of equals, 1e20 times as light.
+TEST(MtsErrors, too_many_steps_name_the_contact_and_the_lightest_particle)
+{
+  const auto error = [](const std::string &density) {
+    Simulation sim;
+    build(sim, {{3.0, 4.0, 4.0}, {3.99, 4.0, 4.0}, {6.0, 4.0, 4.0, 2.0}});
+    return sim.error_of("set atom 1*2 density " + density +
+                        "\nfix nve all nve/sphere/mts collision auto\nrun 1");
+  };
+  EXPECT_EQ(error("1"), "");
+  const auto text = error("1e-20");
+  expect_words(text,
+               {name + " nve: a timestep of 6.1e-05 takes ", " collision steps, more than 1000000",
+                " mode of a contact has omega = ", "of an effective mass of 2.62e-21;",
+                "the lightest particle, ID ",
+                " of type 1, has a mass of 5.24e-21, a diameter of 1 "
+                "and a density of 1e-20: are these, and the stiffness, in order and in units lj?"});
+  ASSERT_NE(text.find("If so, use timestep "), std::string::npos);
+  const auto after = [&](const std::string &words) {
+    return std::stod(text.substr(text.find(words) + words.size()));
+  };
+  const double n = after(" takes "), omega = after(" omega = "),
+               step = after("If so, use timestep ");
+  EXPECT_NEAR(omega * dt / n, 0.3, 0.01);    // of collision auto
+  EXPECT_NEAR(step * n / (1e6 * dt), 0.9, 0.05);
+  const auto heavier = error("1e-18");
+  ASSERT_NE(heavier.find(" omega = "), std::string::npos) << heavier;
+  EXPECT_NEAR(std::stod(heavier.substr(heavier.find(" omega = ") + 9)) / omega, 0.1, 0.001);
+}
+
 TEST(MtsErrors, rigid_molecules_and_scaled_pair_styles)
 {
   const std::vector<std::vector<std::string>> table = {

@@ -167,3 +167,62 @@ TEST(WallMotion, wrong_words_are_refused)
       sim.error_of("fix w all wall/levelset plane z 0 NULL" + jkr + "move linear v_no 0 0\nrun 0");
   EXPECT_NE(text.find("variable no does not exist"), std::string::npos) << text;
 }
+
+// The same surface in two fixes acts twice on particles that both groups have.
+TEST(WallMotion, the_same_wall_twice_is_warned_of)
+{
+  const auto log = [](const std::string &first, const std::string &second,
+                      const std::string &group = "all") {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}, {2.0, 2.0, 4.0}}, at_wall(first, "p p f"));
+    return log_of(sim,
+                  "group one id 1\ngroup two id 2\nfix nve all nve/sphere\nfix w2 " + group +
+                      " wall/levelset " + second + "\nrun 0\n");
+  };
+  const std::string hertz = " jkr 1e6 0.25 0 ", planes = "plane z 0 8", both = planes + hertz;
+  const std::string words = "WARNING: Fix wall/levelset wall and fix w2 are the same wall (";
+  const auto told = [&](const std::string &text, const std::string &names) {
+    return text.find(words + names + ") for the same particles") != std::string::npos;
+  };
+  EXPECT_TRUE(told(log(both, planes + jkr), "lo, hi"));
+  EXPECT_TRUE(told(log(both, "plane z NULL 8" + hertz, "one"), "hi"));
+  const std::string rod = "cylinder z 6 2 1 outside" + hertz, by = "move linear 0 0 ";
+  EXPECT_TRUE(told(log(rod, rod, "two"), "cylinder"));
+  EXPECT_TRUE(told(log(both + by + "0", both + by + "0"), "lo, hi"));
+
+  for (const std::string &other :
+       {"plane z 1e-9 7" + hertz, "plane z NULL 7.999" + hertz, both + by + "1",
+        "cylinder z 6 2 0.9 outside" + hertz, "cylinder z 6 1.9 1 outside" + hertz})
+    for (const std::string &first : {both, rod})
+      EXPECT_EQ(log(first, other).find("are the same wall"), std::string::npos) << other;
+  Simulation sim;
+  build(sim, {{4.0, 4.0, 4.0}, {2.0, 2.0, 4.0}});
+  const std::string text = log_of(sim,
+                                  "change_box all boundary p p f\ngroup one id 1\ngroup two id 2\n"
+                                  "fix w1 one wall/levelset " +
+                                      both + "\nfix w2 two wall/levelset " + both + "\nrun 0\n");
+  EXPECT_EQ(text.find("are the same wall"), std::string::npos) << text;
+}
+
+TEST(WallMotion, the_same_wall_of_a_file_twice_is_warned_of)
+{
+  const TemporaryFile file("apf_twice"), same("apf_twice_again");
+  for (const auto *one : {&file, &same})
+    one->write({9, 9, 9}, {0, 0, 0}, {1, 1, 1}, [](VtkhdfWriter &w) {
+      for (const char *name : {"distance_floor", "distance_ceiling"})
+        w.field(name, 1, [name](const double *x, double, double *d) {
+          d[0] = name[9] == 'f' ? x[2] - 0.5 : 7.5 - x[2];
+        });
+    });
+  const auto log = [&](const std::string &second) {
+    Simulation sim;
+    build(sim, {{4.0, 4.0, 4.0}}, at_wall("file " + file.path + " jkr 1e6 0.25 0"));
+    return log_of(sim,
+                  "fix nve all nve/sphere\nfix w2 all wall/levelset file " + second +
+                      " jkr 1e6 0.25 0\nrun 0\n");
+  };
+  const std::string words = "are the same wall (";
+  EXPECT_NE(log(file.path).find(words + "ceiling, floor)"), std::string::npos) << log(file.path);
+  EXPECT_NE(log(file.path + " array distance_floor").find(words + "floor)"), std::string::npos);
+  EXPECT_EQ(log(same.path).find(words), std::string::npos);
+}

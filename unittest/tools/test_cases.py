@@ -45,8 +45,11 @@ class Cases(unittest.TestCase):
         program.chmod(0o755)
         (self.root / "unittest/styles/test.cpp").write_text(source)
         table = self.root / "table.csv"
+        table.unlink(missing_ok=True)
         done = subprocess.run([self.root / "tools" / "cases", self.root / "build", table, *more],
                               capture_output=True, text=True, check=False)
+        if not table.exists():
+            return done.returncode, done.stdout + done.stderr, None
         with open(table, newline="", encoding="utf-8") as rows:
             return done.returncode, done.stdout + done.stderr, list(csv.reader(rows))
 
@@ -137,6 +140,19 @@ class Cases(unittest.TestCase):
         self.assertEqual(head[:6], ["integrator", "N", "modes", "spheres", "steps", "f3"])
         self.assertEqual([row[:2] for row in rows], [["verlet", "1"], ["mts", "8"]])
         self.assertEqual({len(row) for row in rows}, {len(head)})
+
+    def test_cases_that_the_list_does_not_have_are_refused(self):
+        status, text, rows = self.run_cases(self.GOOD, more=["--only=1,99,"])
+        self.assertEqual((status, rows), (2, None), text)
+        self.assertEqual(text.count("\n"), 1, text)
+        self.assertIn("cases.txt, 1, 2; got 99, ", text)
+
+    def test_folders_that_are_no_builds_are_refused(self):
+        for folder, why in ((self.root / "nowhere", "must be a build folder"), (self.root / "build", "has no tests")):
+            done = subprocess.run([self.root / "tools" / "cases", folder], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertIn(why, done.stderr)
 
 
 unittest.main()
