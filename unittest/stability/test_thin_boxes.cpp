@@ -100,6 +100,36 @@ TEST(RanksThinBoxes, bridges_are_those_of_a_thick_box)
   expect_flight_of_a_thick_box(liquid, 3.0);
 }
 
+// A crowd in which far images of pairs in contact are in the list, too: all skins give the same.
+TEST(RanksThinBoxes, a_crowd_does_not_depend_on_the_skin)
+{
+  const auto crowd_with = [](double skin) {
+    Scene scene;
+    scene.processors = "* * 1";
+    scene.box = "0 8 0 8 0 3";
+    scene.style = pair_of(dry);
+    Simulation sim;
+    build(sim, {}, scene);
+    std::vector<double> x, v;
+    for (int n = 0; n < 49; n++) {
+      const double phase = 0.7 * n;
+      x.insert(x.end(), {0.6 + 1.12 * (n % 7), 0.6 + 1.12 * (n / 7), 1.5 + std::sin(3.0 * phase)});
+      v.insert(v.end(), {20.0 * std::cos(phase), 20.0 * std::sin(phase), 15.0 * std::cos(n * n)});
+    }
+    add_spheres(sim, x, v);
+    sim.run("neighbor " + digits(skin) +
+            " bin\nneigh_modify delay 0 every 10 check no\n"
+            "fix nve all nve/sphere/mts collision tolerance 0.01\ntimestep 3e-4\nrun 200");
+    return std::array{gather(sim, "v"), gather(sim, "omega"), gather(sim, "torque")};
+  };
+  const auto narrow = crowd_with(0.25);
+  for (const double skin : {1.0, 3.0}) {
+    const auto wide = crowd_with(skin);
+    for (size_t k = 0; k < narrow.size(); k++)
+      EXPECT_LT(difference(wide[k], narrow[k]), 1e-7) << skin;
+  }
+}
+
 // once the list is built anew, whose contacts are found again by ID
 TEST(ThinBoxes, two_images_at_once_are_refused)
 {
