@@ -157,5 +157,10 @@ TEST(ThinBoxes, two_images_at_once_are_refused)
           pair, pair.find("particle 1 ") < pair.npos ? "touches particle 2" : "touches particle 1");
     }
     EXPECT_EQ(error_of(1.5, dry, newton, {{3.0, 4.0, 0.25}, {3.9, 4.0, 0.4}}), "") << "one of them";
+    // films of 0.0033 each bridge a gap of 0.004 on either side
+    const std::string films = jkr + "bridge 0.02 40.0 10 0.01 form film";
+    const auto bridged = error_of(2.008, films, newton, {{3.0, 4.0, 0.25}, {3.0, 4.0, 1.254}});
+    EXPECT_NE(bridged.find("has liquid bridges with particle"), std::string::npos) << bridged;
+    EXPECT_NE(bridged.find("thicker than two diameters and bridges"), std::string::npos);
   }
 }
