@@ -5,7 +5,7 @@
 #define APF_ATOM_ORDER_H
 
 #include "atom.h"
-#include "word_hash.h"
+#include "flow/word_hash.h"
 
 namespace LAMMPS_NS {
 
@@ -22,12 +22,12 @@ class AtomOrder {
 
  private:
   bool noted = false;
-  WordHash now;
+  apf::WordHash now;
 
-  static WordHash of(const Atom *atom)
+  static apf::WordHash of(const Atom *atom)
   {
     const int all = atom->nlocal + atom->nghost;
-    return WordHash(atom->nlocal).add(&all, 1).add(atom->tag, atom->tag_enable ? all : 0);
+    return apf::WordHash(atom->nlocal).add(&all, 1).add(atom->tag, atom->tag_enable ? all : 0);
   }
 };
 
@@ -38,12 +38,12 @@ class AtomSizes {
   bool hold(const Atom *atom) const { return now == of(atom); }
 
  private:
-  WordHash now;
+  apf::WordHash now;
 
-  static WordHash of(const Atom *atom)
+  static apf::WordHash of(const Atom *atom)
   {
     const int n = atom->nlocal;
-    return WordHash(n).add(atom->radius, n).add(atom->rmass, n).add(atom->type, n);
+    return apf::WordHash(n).add(atom->radius, n).add(atom->rmass, n).add(atom->type, n);
   }
 };
 
@@ -54,11 +54,11 @@ class AtomPlaces {
   bool hold(const Atom *atom) const { return now == of(atom); }
 
  private:
-  WordHash now;
+  apf::WordHash now;
 
-  static WordHash of(const Atom *atom)
+  static apf::WordHash of(const Atom *atom)
   {
-    WordHash hash(atom->nlocal);
+    apf::WordHash hash(atom->nlocal);
     for (int i = 0; i < atom->nlocal; i++) hash.add(atom->x[i], 3);
     return hash;
   }

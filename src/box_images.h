@@ -52,29 +52,33 @@ class NearestImages {
 
   double width() const { return thinnest; }    // of the box along a periodic axis; or infinite
 
-  // whether no other image of the second point is nearer to the first one
-  bool nearest(const double *from, const double *to) const
+  // whether all other images of a point at d[3] are at least `factor` times as far
+  bool nearest(const double *d, double factor) const
   {
-    const double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
     const double d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    if (4.0 * d2 < thinnest * thinnest) return true;
+    if ((1.0 + factor) * std::sqrt(d2) < thinnest) return true;
     int most[3];
     for (int k = 0; k < 3; k++) most[k] = domain->periodicity[k];
     for (int a = -most[0]; a <= most[0]; a++)
       for (int b = -most[1]; b <= most[1]; b++)
         for (int c = -most[2]; c <= most[2]; c++) {
+          if (a == 0 && b == 0 && c == 0) continue;
           const double n[3] = {double(a), double(b), double(c)};
-          double shift[3];
-          sum_of_box_vectors(n, domain->h, shift);
-          double other2 = 0.0;
-          for (int k = 0; k < 3; k++) other2 += (d[k] + shift[k]) * (d[k] + shift[k]);
-          if (other2 < (1.0 - tolerance) * d2) return false;
+          double other[3], other2 = 0.0;
+          sum_of_box_vectors(n, domain->h, other);
+          for (int k = 0; k < 3; k++) other2 += (d[k] + other[k]) * (d[k] + other[k]);
+          if (other2 < factor * factor * d2) return false;
         }
     return true;
   }
+  bool nearest(const double *from, const double *to) const
+  {
+    constexpr double but_for_rounding = 1.0 - 1e-12;
+    const double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    return nearest(d, but_for_rounding);
+  }
 
  private:
-  static constexpr double tolerance = 1e-12;    // of squares that are equal
   const Domain *domain;
   double thinnest = INFINITY;
 };

@@ -108,7 +108,8 @@ class FixContactHistory : public FixContacts {
 
  protected:
   void store_contacts() override;
-  void check_images() const;
+  template <class List, class Records>
+  void check_images(const List &, const Records &, const char *does, const char *wider) const;
   void before_storing() override;
   void add_counts(double *) override;
   bool stores_alone() const override;

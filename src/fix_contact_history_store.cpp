@@ -50,18 +50,29 @@ void FixContactHistory::store_contacts()
       keep(store.bridges, bridges->i[k], bridges->j[k], bridges->memory(k));
     if (force->newton_pair) send_to_owners(store.bridges);
   }
-  check_images();
+  check_images(contacts, store.contacts, "touches", "");
+  if (bridges) check_images(*bridges, store.bridges, "has a liquid bridge with", " and bridges");
 }
 
-// A pair that is joined by two images at once would find one memory for both.
-void FixContactHistory::check_images() const
+// Of a pair that is joined by two images at once both would find one memory, and where another
+// image than the one that is joined is nearer, that one would.
+template <class List, class Records>
+void FixContactHistory::check_images(const List &list, const Records &records, const char *does,
+                                     const char *wider) const
 {
-  if (NearestImages(domain).width() > 2.0 * (neighbor->cutneighmax - neighbor->skin)) return;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (const tagint partner = store.contacts.repeated(i)) refuse_images(i, partner);
-    if (const tagint partner = store.bridges.repeated(i))
-      refuse_images(i, partner, "has liquid bridges with", " and bridges");
-  }
+  constexpr double apart = 1.01;    // since the list is built a step later
+  const NearestImages images(domain);
+  if (images.width() > (1.0 + apart) * (neighbor->cutneighmax - neighbor->skin)) return;
+  velocities.bodies.with_rows([&](const auto *rows) {
+    for (int k = 0; k < list.size(); k++) {
+      const int i = list.i[k], j = list.j[k];
+      double d[3] = {};
+      for (int c = 0; c < domain->dimension; c++) d[c] = rows[j].x[c] - rows[i].x[c];
+      if (!images.nearest(d, apart)) refuse_images(i, atom->tag[j], does, wider);
+    }
+  });
+  for (int i = 0; i < atom->nlocal; i++)
+    if (const tagint partner = records.repeated(i)) refuse_images(i, partner, does, wider);
 }
 
 void FixContactHistory::refuse_images(int i, tagint partner, const char *does,
@@ -69,8 +80,9 @@ void FixContactHistory::refuse_images(int i, tagint partner, const char *does,
 {
   error->one(
       FLERR, Error::NOLASTLINE,
-      "Pair granular/adhesive: particle {} {} {} through two faces of the box at once: it is "
-      "{:.6g} thick along a periodic axis, and must be thicker than two diameters{}",
+      "Pair granular/adhesive: particle {} {} {} at about the same distance through two faces "
+      "of the box, which is {:.6g} thick along a periodic axis, and must be thicker than two "
+      "diameters and necks{}",
       atom->tag[i], does, partner == atom->tag[i] ? "itself" : fmt::format("particle {}", partner),
       NearestImages(domain).width(), wider);
 }

@@ -193,7 +193,7 @@ void FixNVESphereMTS::choose_steps()
   MPI_Allreduce(&stiffest.frequency2, &frequency2, 1, MPI_DOUBLE, MPI_MAX, world);
   if (!fixed_steps) {
     const double n = std::ceil(demand * update->dt);
-    if (!(n <= too_many)) refuse_steps(n, stiffest);
+    if (n > too_many) refuse_steps(n, stiffest);
     n_collision = std::max(1, static_cast<int>(n));
   }
 

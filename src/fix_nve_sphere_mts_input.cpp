@@ -170,6 +170,6 @@ void FixNVESphereMTS::init()
 
   if (!fixed_steps && n_collision == 1) {
     const double n = std::ceil(update->dt * history->stiffest_possible().frequency / rule.kappa);
-    n_collision = std::max(1, static_cast<int>(std::min<double>(n, too_many)));
+    n_collision = std::max(1, static_cast<int>(n < too_many ? n : too_many));
   }
 }

@@ -67,7 +67,7 @@ void FixNVESphereMTS::refuse_steps(double n, const apf::Stiffest &here)
 
   double lightest[3] = {};    // ID, type, radius
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->rmass[i] < mass.value)) continue;
+    if (!(atom->mask[i] & groupbit) || !(atom->rmass[i] < mass.value)) continue;
     mass.value = atom->rmass[i];
     lightest[0] = static_cast<double>(atom->tag[i]);
     lightest[1] = atom->type[i];

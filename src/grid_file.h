@@ -4,9 +4,9 @@
 #ifndef LMP_GRID_FILE_H
 #define LMP_GRID_FILE_H
 
+#include "flow/word_hash.h"
 #include "node_memory.h"
 #include "pointers.h"
-#include "word_hash.h"
 
 #include "flow/lattice.h"
 #include "flow/vtkhdf_file.h"
@@ -38,7 +38,8 @@ class GridFile : protected Pointers {
   NodeMemory numbers;
   apf::ImageGrid image{};
   apf::Lattice lattice{};
-  WordHash digest;    // of what this rank has read from the file, to be compared with other nodes
+  apf::WordHash
+      digest;    // of what this rank has read from the file, to be compared with other nodes
 
   // Lets the ranks that read do so; an error of one of them is one of all, and so is a node that
   // has read something else than the others.

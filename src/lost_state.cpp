@@ -26,6 +26,7 @@ struct Waiting : Modify {
 
 void LostState::note(Modify *modify)
 {
+  if (modify->nfix_restart_global > 0) lost.clear();    // all wait yet
   for (int n = 0; n < modify->nfix_restart_global; n++)
     if (Waiting::here(modify, n)) lost.push_back(Waiting::name(modify, n));
 }
@@ -41,14 +42,16 @@ bool LostState::take(const Fix *fix)
 
 void LostState::warn(LAMMPS *lmp, const Fix *fix, const std::string &means)
 {
+  bool is_lost = false;
   for (const auto &other : lmp->modify->get_fix_by_style("^contact/history")) {
     auto *history = dynamic_cast<FixContactHistory *>(other);
-    if (history && history->lost.take(fix) && lmp->comm->me == 0)
-      lmp->error->warning(FLERR,
-                          "Fix {} {}: the restart file had its state, but a command that prepares "
-                          "a run, such as run 0, write_data or delete_atoms overlap, came before "
-                          "this fix was given, and LAMMPS threw it away: {}; give all fixes "
-                          "directly after read_restart",
-                          fix->style, fix->id, means);
+    if (history && history->lost.take(fix)) is_lost = true;
   }
+  if (is_lost && lmp->comm->me == 0)
+    lmp->error->warning(FLERR,
+                        "Fix {} {}: the restart file had its state, but a command that prepares "
+                        "a run, such as run 0, write_data or delete_atoms overlap, came before "
+                        "this fix was given, and LAMMPS threw it away: {}; give all fixes "
+                        "directly after read_restart",
+                        fix->style, fix->id, means);
 }

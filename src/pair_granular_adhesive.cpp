@@ -10,6 +10,7 @@
 #include "contact/jump.h"
 #include "fix_contact_history.h"
 #include "force.h"
+#include "math_extra.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -301,7 +302,14 @@ void PairGranularAdhesive::build_candidates()
 void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
 {
   const int i = candidates.i[k], j = candidates.j[k];
-  if (atom->tag[i] == atom->tag[j]) store->refuse_images(i, atom->tag[j]);
+  if (atom->tag[i] == atom->tag[j]) {
+    // in a layer as thick as a sphere it only seems to touch itself
+    constexpr double just = 1.0 - 1e-9;
+    double d[3];
+    MathExtra::sub3(atom->x[i], atom->x[j], d);
+    if (MathExtra::len3(d) >= just * candidates.touch[k]) return;
+    store->refuse_images(i, atom->tag[j]);
+  }
   const int added = contacts.add(i, j, k, number_of_kind(i, j), history);
   contacts.set_crowding(added, bodies_of(i, j, store->count(i) + 1.0, store->count(j) + 1.0));
   candidates.closed[k] = 1;

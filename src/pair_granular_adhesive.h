@@ -19,6 +19,7 @@ PairStyle(granular/adhesive,PairGranularAdhesive);
 #include "run_guard.h"
 #include "type_sizes.h"
 
+#include <array>
 #include <initializer_list>
 
 namespace LAMMPS_NS {
@@ -103,6 +104,7 @@ class PairGranularAdhesive : public Pair {
   class Fix *rigid = nullptr;
   std::vector<double> mass_rigid;    // of the body an atom belongs to, 0 if none
   TypeSizes sizes;
+  std::array<int, 3> lists_told{0, 1, 0};    // of neigh_modify: delay, every, once
   TimestepCheck timestep;
 
   // values per pair that single() offers; energies by part that compute pair offers

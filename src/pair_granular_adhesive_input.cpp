@@ -225,9 +225,13 @@ void PairGranularAdhesive::setup()
                    "Pair granular/adhesive: springs of sliding, twisting and rolling do not follow "
                    "particles that a minimiser moves, so that energy may rise: let a damped run "
                    "come to rest, or minimise with pair_coeff without friction");
-  if (update->whichflag == 1 && utils::strmatch(update->integrate_style, "^verlet") &&
-      modify->get_fix_by_style("^nve/sphere/mts").empty())
+  const std::array lists = {neighbor->delay, neighbor->every, neighbor->build_once};
+  if (update->whichflag == 1 && update->nsteps > 0 && lists != lists_told &&
+      utils::strmatch(update->integrate_style, "^verlet") &&
+      modify->get_fix_by_style("^nve/sphere/mts").empty()) {
     check_list_age(lmp, "Pair granular/adhesive");
+    lists_told = lists;
+  }
   timestep = {};
   if (store->step_is_given())
     timestep.begin(lmp, "Pair granular/adhesive", stiffest_possible(), store->step_of_level());

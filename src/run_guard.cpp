@@ -30,27 +30,36 @@ void RunGuard::prepared()
     if (!utils::strmatch(fix->style, "^MINIMIZE$"))    // it goes when the minimiser ends
       fixes.push_back({Numbered::instance(fix), fix->id});
   box = box_now();
+  knows_box = true;
 }
 
 void RunGuard::ended()
 {
   box = box_now();
+  knows_box = true;
 }
 
-std::vector<double> RunGuard::box_now() const
+RunGuard::Box RunGuard::box_now() const
 {
-  std::vector<double> now = {domain->xy, domain->xz, domain->yz,
-                             static_cast<double>(domain->triclinic)};
+  Box now = {domain->xy, domain->xz, domain->yz, static_cast<double>(domain->triclinic)};
   for (int c = 0; c < 3; c++) {
-    now.insert(now.end(), {domain->boxlo[c], domain->boxhi[c]});
-    for (const int kind : domain->boundary[c]) now.push_back(kind);
+    double *of_axis = &now[4 + 4 * c];
+    of_axis[0] = domain->boxlo[c];
+    of_axis[1] = domain->boxhi[c];
+    of_axis[2] = domain->boundary[c][0];
+    of_axis[3] = domain->boundary[c][1];
   }
   return now;
 }
 
+bool RunGuard::holds_box() const
+{
+  return !knows_box || box == box_now();
+}
+
 void RunGuard::require_box(const std::string &who) const
 {
-  if (!box.empty() && box != box_now())
+  if (!holds_box())
     error->all(FLERR, Error::NOLASTLINE,
                "{}: the box was changed since the last run: use run without pre no", who);
 }
@@ -70,13 +79,11 @@ void RunGuard::require(const Fix *who) const
 {
   if (update->whichflag != 1 || update->setupflag) return;
   const std::string other = fixes.empty() ? "" : changed();
+  // what changes the box within a run may have done so in this step
+  if (!fixes.empty() && other.empty() && (domain->box_change || holds_box())) return;
   const std::string name = who ? fmt::format("Fix {} {}", who->style, who->id)
                                : "Pair granular/adhesive";
-  if (!fixes.empty() && other.empty()) {
-    // what changes it within a run may have done so in this step
-    if (!domain->box_change) require_box(name);
-    return;
-  }
+  if (!fixes.empty() && other.empty()) require_box(name);
   if (fixes.empty())
     error->all(FLERR, Error::NOLASTLINE,
                "{} is new or has new coefficients since the last run: use run without pre no",

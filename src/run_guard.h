@@ -6,6 +6,7 @@
 
 #include "pointers.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,11 @@ class RunGuard : protected Pointers {
 
   std::string changed() const;
 
-  std::vector<double> box;    // its borders, tilt and boundaries; empty before they are known
-  std::vector<double> box_now() const;
+  using Box = std::array<double, 16>;    // tilt, whether triclinic; borders and kinds of boundaries
+  Box box{};
+  bool knows_box = false;
+  Box box_now() const;
+  bool holds_box() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -50,7 +50,13 @@ class VtkhdfFile {
   };
 
   std::string path;
-  std::array<long long, 4> stamp{};       // of the file as it was opened
+  mutable std::array<long long, 4> stamp{};    // of the file as it was opened
+  struct Read {
+    std::string array;
+    int components = 0, frame = 0, layers = 0;
+    std::uint64_t hash = 0;    // of the numbers
+  };
+  mutable Read last;                      // what was read last
   std::int64_t file = -1, points = -1;    // of HDF5: the file, its group PointData
   ImageGrid image;
   std::vector<double> step_times;
@@ -59,6 +65,7 @@ class VtkhdfFile {
   void open();
   std::vector<std::string> names() const;
   void check_unchanged() const;
+  std::vector<double> values(std::int64_t data, const Read &what) const;
   void close();
   void read_grid();
   void read_steps();

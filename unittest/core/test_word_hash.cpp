@@ -1,6 +1,6 @@
 // What a hash is to tell apart: other diameters of all particles, of one, and two that are swapped.
 
-#include "word_hash.h"
+#include "flow/word_hash.h"
 
 #include "gtest/gtest.h"
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-using LAMMPS_NS::WordHash;
+using apf::WordHash;
 
 namespace {
 

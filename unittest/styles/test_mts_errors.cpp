@@ -286,12 +286,13 @@ TEST(MtsErrors, too_many_steps_name_the_contact_and_the_lightest_particle)
   };
   EXPECT_EQ(error("1"), "");
   const auto text = error("1e-20");
-  expect_words(text,
-               {name + " nve: a timestep of 6.1e-05 takes ", " collision steps, more than 1000000",
-                " mode of a contact has omega = ", "of an effective mass of 2.62e-21;",
-                "the lightest particle, ID ",
-                " of type 1, has a mass of 5.24e-21, a diameter of 1 "
-                "and a density of 1e-20: are these, and the stiffness, in order and in units lj?"});
+  expect_words(
+      text,
+      {name + " nve: a timestep of 6.1e-05 takes ", " collision steps, more than 1000000",
+       " mode of a contact has omega = ", "of an effective mass of 2.62e-21;",
+       "the lightest particle, ID ",
+       " of type 1, has a mass of 5.24e-21, a diameter of 1 and a density of 1e-20: are these",
+       ", and the stiffness, in order and in units lj?"});
   ASSERT_NE(text.find("If so, use timestep "), std::string::npos);
   const auto after = [&](const std::string &words) {
     return std::stod(text.substr(text.find(words) + words.size()));

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace LAMMPS_NS {
+namespace apf {
 
 class WordHash {
  public:
@@ -36,6 +36,6 @@ class WordHash {
   }
 };
 
-}    // namespace LAMMPS_NS
+}    // namespace apf
 
 #endif
