@@ -50,6 +50,7 @@ void FixContactHistory::store_contacts()
       keep(store.bridges, bridges->i[k], bridges->j[k], bridges->memory(k));
     if (force->newton_pair) send_to_owners(store.bridges);
   }
+  if (!pair->remembers()) return;
   check_images(contacts, store.contacts, "touches", "");
   if (bridges) check_images(*bridges, store.bridges, "has a liquid bridge with", " and bridges");
 }

@@ -167,6 +167,14 @@ bool PairGranularAdhesive::has_springs() const
   });
 }
 
+// Elastic contacts alone are what their particles' places say, through however many images.
+bool PairGranularAdhesive::remembers() const
+{
+  return wet || has_springs() || some_coeff([](const apf::ContactModel &model) {
+           return model.adhesive() || model.alpha > 0.0;
+         });
+}
+
 void PairGranularAdhesive::find_fastest(apf::LookAhead &ahead)
 {
   store->bodies().with_rows([&](const auto *rows) {
@@ -254,6 +262,7 @@ void PairGranularAdhesive::build_candidates()
   const tagint *tag = atom->tag;
   const double *const *x = atom->x;
   const NearestImages images(domain);
+  const bool one_image = remembers();
   candidates.clear();
   contacts.clear();
   if (update->setupflag && store->keeps_liquid()) store->end_lost_bridges();
@@ -272,7 +281,7 @@ void PairGranularAdhesive::build_candidates()
     const int j = jmasked & NEIGHMASK;
     const int k = candidates.add(i, j, radius[i] + radius[j]);
     const auto history = store->find(i, tag[j]);
-    if (history && images.nearest(x[i], x[j])) close(k, *history);
+    if (history && (!one_image || images.nearest(x[i], x[j]))) close(k, *history);
     if (wet) bridges.add_candidate(i, j, images);
   };
   // First pairs of a few particles, then their second ones, and so on: contacts that share a body
@@ -302,7 +311,7 @@ void PairGranularAdhesive::build_candidates()
 void PairGranularAdhesive::close(int k, const apf::ContactHistory &history)
 {
   const int i = candidates.i[k], j = candidates.j[k];
-  if (atom->tag[i] == atom->tag[j]) {
+  if (atom->tag[i] == atom->tag[j] && remembers()) {
     // in a layer as thick as a sphere it only seems to touch itself
     constexpr double just = 1.0 - 1e-9;
     double d[3];

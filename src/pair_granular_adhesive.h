@@ -52,6 +52,7 @@ class PairGranularAdhesive : public Pair {
   void settle_bridges() { bridges.settle(); }
   double longest_neck() const { return neck_max; }
   double longest_reach() const { return reach_max; }    // of necks and bridges
+  bool remembers() const;    // whether contacts have more than the places of their particles
   bool planar() const { return choice.planar; }
   void list_was_built() { rebuild = true; }
   apf::StiffestMode stiffest_possible() const;    // of any two particles

@@ -159,6 +159,8 @@ TEST(ThinBoxes, two_images_at_once_are_refused)
           pair, pair.find("particle 1 ") < pair.npos ? "touches particle 2" : "touches particle 1");
     }
     EXPECT_EQ(error_of(1.5, dry, newton, {{3.0, 4.0, 0.25}, {3.9, 4.0, 0.4}}), "") << "one of them";
+    // elastic contacts have nothing to remember
+    EXPECT_EQ(error_of(1.5, " jkr 1.0e6 0.25 0", newton, {{3.0, 4.0, 0.25}, {3.6, 4.0, 1.0}}), "");
     // a layer as thick as a sphere, which is no nearer to itself than to touch
     EXPECT_EQ(error_of(1.0, " jkr 1.0e6 0.25 0", newton, {{3.0, 4.0, 0.5}, {3.9, 4.0, 0.5}}), "");
     // films of 0.0033 each bridge a gap of 0.004 on either side
