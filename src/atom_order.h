@@ -31,38 +31,31 @@ class AtomOrder {
   }
 };
 
-// of owned atoms
-class AtomSizes {
+// What of() says of owned atoms, as it was noted
+template <apf::WordHash (*of)(const Atom *)> class NotedAtoms {
  public:
   void note(const Atom *atom) { now = of(atom); }
   bool hold(const Atom *atom) const { return now == of(atom); }
 
  private:
   apf::WordHash now;
-
-  static apf::WordHash of(const Atom *atom)
-  {
-    const int n = atom->nlocal;
-    return apf::WordHash(n).add(atom->radius, n).add(atom->rmass, n).add(atom->type, n);
-  }
 };
 
-// of owned atoms
-class AtomPlaces {
- public:
-  void note(const Atom *atom) { now = of(atom); }
-  bool hold(const Atom *atom) const { return now == of(atom); }
+inline apf::WordHash hash_of_sizes(const Atom *atom)
+{
+  const int n = atom->nlocal;
+  return apf::WordHash(n).add(atom->radius, n).add(atom->rmass, n).add(atom->type, n);
+}
 
- private:
-  apf::WordHash now;
+inline apf::WordHash hash_of_places(const Atom *atom)
+{
+  apf::WordHash hash(atom->nlocal);
+  for (int i = 0; i < atom->nlocal; i++) hash.add(atom->x[i], 3);
+  return hash;
+}
 
-  static apf::WordHash of(const Atom *atom)
-  {
-    apf::WordHash hash(atom->nlocal);
-    for (int i = 0; i < atom->nlocal; i++) hash.add(atom->x[i], 3);
-    return hash;
-  }
-};
+using AtomSizes = NotedAtoms<hash_of_sizes>;
+using AtomPlaces = NotedAtoms<hash_of_places>;
 
 }    // namespace LAMMPS_NS
 

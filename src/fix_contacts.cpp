@@ -299,7 +299,7 @@ void FixContacts::post_run()
   if (!begins || update->whichflag == 2) {    // else a run of no steps, which found nothing anew
     sizes.note(atom);
     places.note(atom);
-    guard.ended();
+    guard.note_box();
   }
   begins = true;
   run_ended = true;

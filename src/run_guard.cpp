@@ -29,11 +29,10 @@ void RunGuard::prepared()
   for (const auto &fix : modify->get_fix_list())
     if (!utils::strmatch(fix->style, "^MINIMIZE$"))    // it goes when the minimiser ends
       fixes.push_back({Numbered::instance(fix), fix->id});
-  box = box_now();
-  knows_box = true;
+  note_box();
 }
 
-void RunGuard::ended()
+void RunGuard::note_box()
 {
   box = box_now();
   knows_box = true;
@@ -78,18 +77,19 @@ std::string RunGuard::changed() const
 void RunGuard::require(const Fix *who) const
 {
   if (update->whichflag != 1 || update->setupflag) return;
-  const std::string other = fixes.empty() ? "" : changed();
-  // what changes the box within a run may have done so in this step
-  if (!fixes.empty() && other.empty() && (domain->box_change || holds_box())) return;
-  const std::string name = who ? fmt::format("Fix {} {}", who->style, who->id)
-                               : "Pair granular/adhesive";
-  if (!fixes.empty() && other.empty()) require_box(name);
+  const auto name = [who] {
+    return who ? fmt::format("Fix {} {}", who->style, who->id) : "Pair granular/adhesive";
+  };
   if (fixes.empty())
     error->all(FLERR, Error::NOLASTLINE,
                "{} is new or has new coefficients since the last run: use run without pre no",
-               name);
-  error->all(FLERR, Error::NOLASTLINE,
-             "{}: fix {} was made, replaced or taken away since the last run: use run without pre "
-             "no",
-             name, other);
+               name());
+  if (const std::string other = changed(); !other.empty())
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "{}: fix {} was made, replaced or taken away since the last run: use run without pre "
+        "no",
+        name(), other);
+  // what changes the box within a run may have done so in this step
+  if (!domain->box_change && !holds_box()) require_box(name());
 }

@@ -19,8 +19,8 @@ class RunGuard : protected Pointers {
   // where a style is set up for a run, after its init(): it knows all fixes, and the box, as they
   // are
   void prepared();
-  // where a run ends, in which fixes and borders may have changed the box
-  void ended();
+  // the box, also where a run ends, in which fixes and borders may have changed it
+  void note_box();
   // its coefficients are others: what was prepared is out of date
   void forget() { fixes.clear(); }
   // Before a style looks at what it knows of others: an error if fixes were made, replaced or taken
